@@ -1,0 +1,248 @@
+// Python's door to the kernel: plain arrays in, plain arrays out. No mechanics here.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sample.hpp"
+#include "solve.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+/// The robot's arrays, owned; view() hands them to the kernel.
+struct PreparedRobot {
+    std::vector<tactr::Tube> tubes;
+    std::vector<tactr::TubePiece> pieces;
+    std::vector<tactr::Tendon> tendons;
+    std::vector<tactr::RoutingPiece> routing;
+    std::vector<tactr::TensionPiece> profiles;
+    std::vector<tactr::PointLoad> point_loads;
+    std::vector<tactr::DistributedLoad> distributed_loads;
+
+    tactr::Robot view() const {
+        return {static_cast<int>(tubes.size()),       static_cast<int>(tendons.size()),
+                static_cast<int>(point_loads.size()), static_cast<int>(distributed_loads.size()),
+                tubes.data(),   pieces.data(),   tendons.data(),           routing.data(),
+                profiles.data(), point_loads.data(), distributed_loads.data()};
+    }
+};
+
+void check_columns(const Table& table, size_t columns, const char* name) {
+    if (table.shape(1) != columns)
+        throw std::invalid_argument(std::string(name) + " needs " + std::to_string(columns) + " columns");
+}
+
+void read_tubes(PreparedRobot& robot, const Table& tubes, const Table& pieces) {
+    check_columns(tubes, 3, "tubes");  // length, linear density, number of pieces
+    check_columns(pieces, 9, "pieces");
+    if (tubes.shape(0) < 1 || tubes.shape(0) > tactr::MAX_TUBES) throw std::invalid_argument("1 to 8 tubes");
+    int first = 0;
+    for (size_t i = 0; i < tubes.shape(0); ++i) {
+        const int count = static_cast<int>(tubes(i, 2));
+        robot.tubes.push_back({tubes(i, 0), tubes(i, 1), first, first + count});
+        first += count;
+    }
+    if (static_cast<size_t>(first) != pieces.shape(0)) throw std::invalid_argument("pieces do not match tubes");
+    for (size_t k = 0; k < pieces.shape(0); ++k)
+        robot.pieces.push_back({pieces(k, 0), pieces(k, 1), pieces(k, 2), pieces(k, 3), pieces(k, 4), pieces(k, 5),
+                                {pieces(k, 6), pieces(k, 7), pieces(k, 8)}});
+}
+
+void read_routing(PreparedRobot& robot, const Table& routing) {
+    constexpr size_t N = tactr::MAX_COEFFICIENTS;
+    check_columns(routing, 5 + 2 * N, "routing");
+    for (size_t k = 0; k < routing.shape(0); ++k) {
+        tactr::RoutingPiece piece{routing(k, 0), routing(k, 1), routing(k, 2) != 0.0,
+                                  static_cast<int>(routing(k, 3)), static_cast<int>(routing(k, 4)), {}, {}};
+        if (piece.count_a < 1 || piece.count_b < 1 || piece.count_a > static_cast<int>(N) || piece.count_b > static_cast<int>(N))
+            throw std::invalid_argument("routing pieces have 1 to 16 coefficients");
+        for (size_t c = 0; c < N; ++c) {
+            piece.a[c] = routing(k, 5 + c);
+            piece.b[c] = routing(k, 5 + N + c);
+        }
+        robot.routing.push_back(piece);
+    }
+}
+
+void read_tendons(PreparedRobot& robot, const Table& tendons, const Table& profiles) {
+    check_columns(tendons, 5, "tendons");  // tube, outermost, end, number of routing pieces, of tension pieces
+    check_columns(profiles, 6, "profiles");
+    int routing = 0, profile = 0;
+    for (size_t j = 0; j < tendons.shape(0); ++j) {
+        const int tube = static_cast<int>(tendons(j, 0));
+        if (tube < 0 || tube >= static_cast<int>(robot.tubes.size())) throw std::invalid_argument("tendon on no tube");
+        const int routes = static_cast<int>(tendons(j, 3)), tensions = static_cast<int>(tendons(j, 4));
+        robot.tendons.push_back({tube, tendons(j, 1) != 0.0, tendons(j, 2), routing, routing + routes, profile, profile + tensions});
+        routing += routes;
+        profile += tensions;
+    }
+    if (static_cast<size_t>(routing) != robot.routing.size()) throw std::invalid_argument("routing does not match tendons");
+    if (static_cast<size_t>(profile) != profiles.shape(0)) throw std::invalid_argument("profiles do not match tendons");
+    for (size_t k = 0; k < profiles.shape(0); ++k)
+        robot.profiles.push_back({profiles(k, 0), static_cast<int>(profiles(k, 1)),
+                                  {profiles(k, 2), profiles(k, 3), profiles(k, 4), profiles(k, 5)}});
+}
+
+void read_loads(PreparedRobot& robot, const Table& points, const Table& distributed) {
+    check_columns(points, 9, "point_loads");
+    check_columns(distributed, 10, "distributed_loads");
+    const int tubes = static_cast<int>(robot.tubes.size());
+    for (size_t l = 0; l < points.shape(0); ++l) {
+        tactr::PointLoad load{static_cast<int>(points(l, 0)), points(l, 1) != 0.0, points(l, 2), {}, {}};
+        if (load.tube < 0 || load.tube >= tubes) throw std::invalid_argument("point load on no tube");
+        for (size_t a = 0; a < 3; ++a) {
+            load.force[a] = points(l, 3 + a);
+            load.moment[a] = points(l, 6 + a);
+        }
+        robot.point_loads.push_back(load);
+    }
+    for (size_t l = 0; l < distributed.shape(0); ++l) {
+        tactr::DistributedLoad load{static_cast<int>(distributed(l, 0)), distributed(l, 1) != 0.0, distributed(l, 2),
+                                    distributed(l, 3), {}, {}};
+        if (load.tube < -1 || load.tube >= tubes) throw std::invalid_argument("distributed load on no tube");
+        for (size_t a = 0; a < 3; ++a) {
+            load.force[a] = distributed(l, 4 + a);
+            load.moment[a] = distributed(l, 7 + a);
+        }
+        robot.distributed_loads.push_back(load);
+    }
+}
+
+std::vector<double> copied(const Vector& v, size_t expected, const char* name) {
+    if (v.shape(0) != expected) throw std::invalid_argument(std::string(name) + " has the wrong length");
+    return std::vector<double>(v.data(), v.data() + expected);
+}
+
+tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
+                      double tolerance, double residual_tolerance, const tactr::Solution* guess) {
+    tactr::Solution solution;
+    solution.tension = copied(tension, robot.tendons.size(), "tension");
+    solution.rotation = copied(rotation, robot.tubes.size(), "rotation");
+    solution.translation = copied(translation, robot.tubes.size(), "translation");
+    nb::gil_scoped_release release;
+    const tactr::Robot view = robot.view();
+    const tactr::Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    tactr::Solver solver(view, actuation, settings);
+    if (guess) {
+        solver.solve_from(*guess, solution);
+    } else {
+        solver.solve_cold(solution);
+    }
+    return solution;
+}
+
+template <size_t N>
+auto array_of(std::vector<double>&& data, const size_t (&shape)[N]) {
+    auto* owned = new std::vector<double>(std::move(data));
+    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+    return nb::ndarray<nb::numpy, double>(owned->data(), N, shape, owner);
+}
+
+using Getter = const double* (*)(const tactr::StationRecord&, int);
+
+nb::object tube_field(const tactr::Samples& samples, size_t width, Getter get) {
+    std::vector<double> data;
+    data.reserve(samples.stations.size() * samples.tubes * width);
+    for (int i = 0; i < samples.tubes; ++i)
+        for (const auto& station : samples.stations) data.insert(data.end(), get(station, i), get(station, i) + width);
+    const size_t shape[3] = {static_cast<size_t>(samples.tubes), samples.stations.size(), width};
+    return nb::cast(array_of(std::move(data), shape));
+}
+
+nb::object station_field(const tactr::Samples& samples, size_t width, Getter get) {
+    std::vector<double> data;
+    for (const auto& station : samples.stations) data.insert(data.end(), get(station, 0), get(station, 0) + width);
+    const size_t shape[2] = {samples.stations.size(), width};
+    return nb::cast(array_of(std::move(data), shape));
+}
+
+nb::dict sample(const PreparedRobot& robot, const tactr::Solution& solution, const Vector& stations) {
+    const std::vector<double> s(stations.data(), stations.data() + stations.shape(0));
+    if (!std::is_sorted(s.begin(), s.end())) throw std::invalid_argument("stations must ascend");
+    tactr::Samples samples;
+    if (!tactr::sample(robot.view(), solution, s, samples)) throw std::runtime_error("the solution cannot be sampled");
+    using R = tactr::StationRecord;
+    nb::dict out;
+    out["position"] = station_field(samples, 3, [](const R& r, int) { return r.position; });
+    out["quaternion"] = station_field(samples, 4, [](const R& r, int) { return r.quaternion; });
+    out["psi"] = tube_field(samples, 1, [](const R& r, int i) { return &r.psi[i]; });
+    out["u"] = tube_field(samples, 3, [](const R& r, int i) { return r.u[i]; });
+    out["v"] = tube_field(samples, 3, [](const R& r, int i) { return r.v[i]; });
+    out["n"] = tube_field(samples, 3, [](const R& r, int i) { return r.n[i]; });
+    out["m"] = tube_field(samples, 3, [](const R& r, int i) { return r.m[i]; });
+    std::vector<double> present, tendon;
+    for (int i = 0; i < samples.tubes; ++i)
+        for (const auto& station : samples.stations) present.push_back(station.present[i]);
+    for (int j = 0; j < samples.tendons; ++j)
+        for (size_t k = 0; k < s.size(); ++k) {
+            const auto& record = samples.tendon[k * samples.tendons + j];
+            tendon.insert(tendon.end(), {static_cast<double>(record.host), record.r[0], record.r[1], record.tension});
+        }
+    const size_t tube_shape[2] = {static_cast<size_t>(samples.tubes), s.size()};
+    const size_t tendon_shape[3] = {static_cast<size_t>(samples.tendons), s.size(), 4};
+    out["present"] = nb::cast(array_of(std::move(present), tube_shape));
+    out["tendon"] = nb::cast(array_of(std::move(tendon), tendon_shape));
+    return out;
+}
+
+nb::object vector_of(const double* data, size_t count) {
+    const size_t shape[1] = {count};
+    return nb::cast(array_of(std::vector<double>(data, data + count), shape));
+}
+
+}  // namespace
+
+NB_MODULE(_core, m) {
+    m.doc() = "tactr's kernel: statics of tendon-actuated concentric tubes, from the free end to the base. SI units.";
+    m.attr("MAX_TUBES") = tactr::MAX_TUBES;
+
+    nb::class_<PreparedRobot>(m, "PreparedRobot", "A robot as flat arrays, ready to be solved many times.")
+        .def("__init__",
+             [](PreparedRobot* self, const Table& tubes, const Table& pieces, const Table& tendons, const Table& routing,
+                const Table& profiles, const Table& point_loads, const Table& distributed_loads) {
+                 auto robot = std::make_unique<PreparedRobot>();
+                 read_tubes(*robot, tubes, pieces);
+                 read_routing(*robot, routing);
+                 read_tendons(*robot, tendons, profiles);
+                 read_loads(*robot, point_loads, distributed_loads);
+                 new (self) PreparedRobot(std::move(*robot));
+             },
+             "tubes"_a, "pieces"_a, "tendons"_a, "routing"_a, "profiles"_a, "point_loads"_a, "distributed_loads"_a);
+
+    nb::class_<tactr::Solution>(m, "Solution", "What a solve found.")
+        .def_prop_ro("status", [](const tactr::Solution& s) { return static_cast<int>(s.status); })
+        .def_ro("iterations", &tactr::Solution::iterations)
+        .def_ro("base_residual", &tactr::Solution::base_residual)
+        .def_ro("section_residual", &tactr::Solution::section_residual)
+        .def_ro("discretisation_error", &tactr::Solution::discretisation_error)
+        .def_ro("least_stretch", &tactr::Solution::least_stretch)
+        .def_ro("base_determinant", &tactr::Solution::base_determinant)
+        .def_ro("used_continuation", &tactr::Solution::used_continuation)
+        .def_prop_ro("steps", [](const tactr::Solution& s) { return s.mesh.steps; })
+        .def_prop_ro("free_end_psi",
+                     [](const tactr::Solution& s) { return vector_of(s.free_end.psi, s.rotation.size()); })
+        .def_prop_ro("tension", [](const tactr::Solution& s) { return vector_of(s.tension.data(), s.tension.size()); })
+        .def_prop_ro("tendon_length",
+                     [](const tactr::Solution& s) { return vector_of(s.tendon_length.data(), s.tendon_length.size()); })
+        .def_prop_ro("tip_position", [](const tactr::Solution& s) { return vector_of(s.tip_position, 3); })
+        .def_prop_ro("tip_quaternion", [](const tactr::Solution& s) { return vector_of(s.tip_quaternion, 4); });
+
+    m.def("solve", &solve, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
+          "guess"_a = nb::none(), "Free-end unknowns, residuals and tip of one robot at one actuation.");
+    m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
+}

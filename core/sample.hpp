@@ -1,0 +1,187 @@
+// Reads a converged solution at any stations: one plain march with the dense output of the eighth-order rule.
+#pragma once
+#include <cmath>
+#include <vector>
+
+#include "free_end.hpp"
+#include "march.hpp"
+#include "solve.hpp"
+
+namespace tactr {
+
+/// Everything at one station. Tube data in the tube's own material frame; p and R_b in world axes.
+struct StationRecord {
+    double position[3], quaternion[4];  // quaternion of R_b
+    int present[MAX_TUBES];
+    double psi[MAX_TUBES];
+    double u[MAX_TUBES][3], v[MAX_TUBES][3], n[MAX_TUBES][3], m[MAX_TUBES][3];
+};
+
+struct TendonRecord {
+    int host;  // tube, -1: absent at this station
+    double r[2], tension;
+};
+
+struct Samples {
+    int tubes, tendons;
+    std::vector<StationRecord> stations;
+    std::vector<TendonRecord> tendon;  // station-major
+};
+
+class Sampler {
+  public:
+    Sampler(const Robot& robot, const Layout<double>& layout, const std::vector<double>& stations, Samples& samples)
+        : robot_(robot), layout_(layout), stations_(stations), samples_(samples), next_(static_cast<int>(stations.size()) - 1) {
+        samples.tubes = robot.tube_count;
+        samples.tendons = robot.tendon_count;
+        samples.stations.resize(stations.size());
+        samples.tendon.resize(stations.size() * robot.tendon_count);
+    }
+
+    template <class M>
+    void operator()(M& march, int k, const double* before, double s, double h) {
+        const Section<double>& section = layout_.sections[k];
+        const bool first = k == 0 || (!section.guided && layout_.sections[k - 1].guided);
+        const double end = s + h;
+        bool last_step = std::fabs(end - section.proximal) < 1e-9 * (section.distal - section.proximal);
+        if (next_ < 0 || (stations_[next_] <= end && !(first && last_step))) return;
+        prepare(march, section, before, s, h);
+        while (next_ >= 0 && (stations_[next_] > end || (first && last_step && stations_[next_] >= end - 1e-12))) {
+            read(march, section, before, s, h, next_);
+            --next_;
+        }
+    }
+
+  private:
+    const Robot& robot_;
+    const Layout<double>& layout_;
+    const std::vector<double>& stations_;
+    Samples& samples_;
+    int next_;
+    double coefficient_[dp8::DENSE_TERMS][STATES];
+    Strains strains_;
+
+    template <class M>
+    void prepare(M& march, const Section<double>& section, const double* before, double s, double h) {
+        auto& k = march.work.k;
+        double stage[STATES];
+        std::copy(march.y, march.y + STATES, stage);
+        march.derivative(section, s + h, march.y, k[12], strains_ = start(march, section));
+        for (int i = 13; i < dp8::DENSE_STAGES; ++i) {
+            for (int n = 0; n < march.state_count; ++n) {
+                const int c = march.state_index[n];
+                double sum = 0.0;
+                for (int j = 0; j < i; ++j)
+                    if (dp8::A[i][j] != 0.0) sum += dp8::A[i][j] * k[j][c];
+                stage[c] = before[c] + h * sum;
+            }
+            march.derivative(section, s + h * dp8::C[i], stage, k[i], strains_);
+        }
+        for (int n = 0; n < march.state_count; ++n) {
+            const int c = march.state_index[n];
+            const double rise = march.y[c] - before[c];
+            coefficient_[0][c] = rise;
+            coefficient_[1][c] = h * k[0][c] - rise;
+            coefficient_[2][c] = 2.0 * rise - h * (k[0][c] + k[12][c]);
+            for (int t = 0; t < 4; ++t) {
+                double sum = 0.0;
+                for (int j = 0; j < dp8::DENSE_STAGES; ++j) sum += dp8::D[t][j] * k[j][c];
+                coefficient_[3 + t][c] = h * sum;
+            }
+        }
+    }
+
+    template <class M>
+    Strains start(M& march, const Section<double>& section) const {
+        Strains e = march.strains;
+        if (section.guided) e.kx = e.ky = e.wx = e.wy = 0.0;
+        return e;
+    }
+
+    template <class M>
+    void read(M& march, const Section<double>& section, const double* before, double s, double h, int station) {
+        double state[STATES];
+        std::copy(before, before + STATES, state);
+        const double x = (stations_[station] - s) / h;
+        for (int n = 0; n < march.state_count; ++n) {
+            const int c = march.state_index[n];
+            double sum = 0.0;
+            for (int t = dp8::DENSE_TERMS - 1; t >= 0; --t) sum = (sum + coefficient_[t][c]) * (t % 2 == 0 ? x : 1.0 - x);
+            state[c] += sum;
+        }
+        march.solve_section(section, stations_[station], state, strains_);
+        record(march, section, state, samples_.stations[station]);
+        record_tendons(march, section, station);
+    }
+
+    template <class M>
+    void record(M& march, const Section<double>& section, const double* state, StationRecord& out) const {
+        out = StationRecord{};
+        double norm = 0.0;
+        for (int c = 0; c < 4; ++c) norm += state[QUAT + c] * state[QUAT + c];
+        for (int c = 0; c < 4; ++c) out.quaternion[c] = state[QUAT + c] / std::sqrt(norm);
+        for (int c = 0; c < 3; ++c) out.position[c] = state[POS + c];
+        for (int a = 0; a < section.active_count; ++a) {
+            const int i = section.active[a];
+            const TubePiece& piece = robot_.pieces[section.piece[a]];
+            const double c = march.cosine[a], s = march.sine[a], stretch = 1.0 + strains_.eta[a];
+            out.present[i] = 1;
+            out.psi[i] = state[PSI + i];
+            const double u[3] = {c * strains_.kx + s * strains_.ky, c * strains_.ky - s * strains_.kx, strains_.tau[a]};
+            const double v[2] = {stretch * (c * strains_.wx + s * strains_.wy), stretch * (c * strains_.wy - s * strains_.wx)};
+            const double stiffness[3] = {piece.EIx, piece.EIy, piece.GJ};
+            for (int r = 0; r < 3; ++r) {
+                out.u[i][r] = u[r];
+                out.m[i][r] = stiffness[r] * (u[r] - piece.ustar[r]);
+            }
+            for (int r = 0; r < 2; ++r) {
+                out.v[i][r] = v[r];
+                out.n[i][r] = piece.GA * v[r];
+            }
+            out.v[i][2] = stretch;
+            out.n[i][2] = piece.EA * strains_.eta[a];
+        }
+    }
+
+    template <class M>
+    void record_tendons(M& march, const Section<double>& section, int station) {
+        for (int j = 0; j < robot_.tendon_count; ++j) samples_.tendon[station * robot_.tendon_count + j] = TendonRecord{-1, {0, 0}, 0};
+        for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
+            const TendonState<double>& tendon = march.work.tendons[h - section.hosted.begin];
+            samples_.tendon[station * robot_.tendon_count + layout_.hosted[h].tendon] =
+                TendonRecord{section.active[tendon.slot], {tendon.r[0], tendon.r[1]}, tendon.tension};
+        }
+    }
+};
+
+/// Turns the records, marched from the tip, to world axes with the base at the origin.
+inline void place_in_world(const Shooting& shooting, const BaseState<double>& base, double alpha, Samples& samples) {
+    double turn[4];
+    shooting.world_turn(base, alpha, turn);
+    for (StationRecord& station : samples.stations) {
+        double q[4], p[3];
+        const double relative[3] = {station.position[0] - base.position[0], station.position[1] - base.position[1],
+                                    station.position[2] - base.position[2]};
+        multiply_quaternions(turn, station.quaternion, q);
+        to_world(turn, relative, p);
+        std::copy(q, q + 4, station.quaternion);
+        std::copy(p, p + 3, station.position);
+    }
+}
+
+/// Samples a solution at ascending stations in [smallest translation, tip].
+inline bool sample(const Robot& robot, const Solution& solution, const std::vector<double>& stations, Samples& samples) {
+    const Layout<double> layout = cut_into_sections(robot, solution.translation.data());
+    const Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
+    const Shooting shooting(robot, layout);
+    Workspace<double, double> work;
+    March<double, double> march(robot, layout, actuation, work, shooting.full_options());
+    shooting.scale(march);
+    Mesh mesh = solution.mesh;
+    Sampler sampler(robot, layout, stations, samples);
+    if (!march.run(solution.free_end, mesh, sampler)) return false;
+    place_in_world(shooting, march.base, solution.rotation[0], samples);
+    return true;
+}
+
+}  // namespace tactr

@@ -1,0 +1,104 @@
+"""From a robot to the flat arrays that the kernel takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from tactr import _core
+from tactr.robot import DistributedLoad, Gravity, PointLoad, Robot, Tendon, TensionProfile, Tube
+
+COEFFICIENTS = 16
+
+
+def assemble(robot: Robot) -> _core.PreparedRobot:
+    """The robot as the kernel sees it: tubes, pieces, tendons, routing, tension profiles and loads as tables."""
+    index = {tube.name: i for i, tube in enumerate(robot.tubes)}
+    return _core.PreparedRobot(
+        tubes=_table([_tube_row(tube) for tube in robot.tubes], 3),
+        pieces=_table([row for tube in robot.tubes for row in _piece_rows(tube)], 9),
+        tendons=_table([_tendon_row(robot, tendon, index) for tendon in robot.tendons], 5),
+        routing=_table([row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS),
+        profiles=_table([row for tendon in robot.tendons for row in _profile_rows(tendon)], 6),
+        point_loads=_table([_point_row(robot, load, index) for load in robot.loads if isinstance(load, PointLoad)], 9),
+        distributed_loads=_table(_distributed_rows(robot, index), 10),
+    )
+
+
+def base_tension(tendon: Tendon) -> float:
+    """The tension handed to the kernel: a profile carries its newtons itself."""
+    return 1.0 if isinstance(tendon.tension, TensionProfile) else tendon.tension
+
+
+def tendon_end(robot: Robot, tendon: Tendon) -> float:
+    """Arc length sigma of the tendon's termination, m."""
+    return robot.tube(tendon.tube).length if tendon.end is None else tendon.end
+
+
+def _table(rows: Sequence[Sequence[float]], columns: int) -> np.ndarray:
+    return np.array(rows, dtype=float).reshape(len(rows), columns)
+
+
+def _tube_row(tube: Tube) -> list[float]:
+    return [tube.length, tube.linear_density or 0.0, len(tube.precurvature)]
+
+
+def _piece_rows(tube: Tube) -> list[list[float]]:
+    k = tube.stiffness
+    return [[start, k.EI_x, k.EI_y, k.GJ, k.EA, k.GA, *ustar] for start, ustar in tube.precurvature]
+
+
+def _tendon_row(robot: Robot, tendon: Tendon, index: dict[str, int]) -> list[float]:
+    pieces = len(tendon.routing.pieces(tendon_end(robot, tendon)))
+    tensions = len(_profile_rows(tendon))
+    return [index[tendon.tube], tendon.host == "outermost", tendon_end(robot, tendon), pieces, tensions]
+
+
+def _routing_rows(robot: Robot, tendon: Tendon) -> list[list[float]]:
+    rows = []
+    for piece in tendon.routing.pieces(tendon_end(robot, tendon)):
+        a = [*piece.a, *[0.0] * (COEFFICIENTS - len(piece.a))]
+        b = [*piece.b, *[0.0] * (COEFFICIENTS - len(piece.b))]
+        rows.append([piece.start, piece.end, piece.polar, len(piece.a), len(piece.b), *a, *b])
+    return rows
+
+
+def _profile_rows(tendon: Tendon) -> list[list[float]]:
+    if not isinstance(tendon.tension, TensionProfile):
+        return []
+    sigma, values = tendon.tension.sigma, tendon.tension.values
+    rows = [[-math.inf if sigma[0] > 0.0 else sigma[0], 1, values[0], 0.0, 0.0, 0.0]] if sigma[0] > 0.0 else []
+    for k in range(len(sigma) - 1):
+        slope = (values[k + 1] - values[k]) / (sigma[k + 1] - sigma[k])
+        rows.append([sigma[k], 2, values[k], slope, 0.0, 0.0])
+    rows.append([sigma[-1], 1, values[-1], 0.0, 0.0, 0.0])
+    return rows
+
+
+def _point_row(robot: Robot, load: PointLoad, index: dict[str, int]) -> list[float]:
+    at = robot.tube(load.tube).length if load.at is None else load.at
+    return [index[load.tube], load.axes == "body", at, *load.force, *load.moment]
+
+
+def _distributed_rows(robot: Robot, index: dict[str, int]) -> list[list[float]]:
+    rows = []
+    for load in robot.loads:
+        if isinstance(load, DistributedLoad):
+            rows.append(_distributed_row(robot, load, index))
+        elif isinstance(load, Gravity):
+            rows.extend(_weight_row(load, i, tube) for i, tube in enumerate(robot.tubes))
+    return rows
+
+
+def _distributed_row(robot: Robot, load: DistributedLoad, index: dict[str, int]) -> list[float]:
+    tube = -1 if load.tube is None else index[load.tube]
+    reach = max(t.tip for t in robot.tubes) if load.tube is None else robot.tube(load.tube).length
+    end = reach if load.end is None else load.end
+    return [tube, load.axes == "body", load.start, end, *load.force, *load.moment]
+
+
+def _weight_row(gravity: Gravity, i: int, tube: Tube) -> list[float]:
+    weight = [(tube.linear_density or 0.0) * g for g in gravity.acceleration]
+    return [i, False, 0.0, tube.length, *weight, 0.0, 0.0, 0.0]

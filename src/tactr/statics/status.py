@@ -1,0 +1,57 @@
+"""How a solve ended, in words."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from tactr import _core
+
+
+class Status(str, Enum):
+    """How a solve ended; only CONVERGED carries a shape."""
+
+    CONVERGED = "converged"
+    NO_SECTION_EQUILIBRIUM = "no section equilibrium"
+    STALLED = "stalled"
+    TOO_COARSE = "too coarse"
+    COLLAPSED = "collapsed"
+
+
+_BY_CODE = tuple(Status)
+
+
+def status_of(solution: _core.Solution) -> Status:
+    """The kernel's status code as a Status."""
+    return _BY_CODE[solution.status]
+
+
+def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
+    """One text: what happened, and for a failure what to do about it."""
+    if status is Status.CONVERGED:
+        return (
+            f"converged: base missed by {solution.base_residual:.1e} rad, section equilibrium to "
+            f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m at the tip"
+        )
+    return _FAILURES[status].format(s=solution, tolerance=tolerance)
+
+
+_FAILURES = {
+    Status.NO_SECTION_EQUILIBRIUM: (
+        "no equilibrium was found: a cross-section has none under this load. The load or a tension is far beyond "
+        "what the tubes can carry; check its unit and size, and the tubes' stiffness."
+    ),
+    Status.STALLED: (
+        "no equilibrium was found: the base is still missed by {s.base_residual:.1e} rad after {s.iterations} "
+        "iterations, from a cold start and by load continuation. The load is probably far beyond what the tubes can "
+        "carry (check its unit and size), or the robot is at a fold where it snaps: start from a neighbouring shape "
+        "with guess=, or lower the loads."
+    ),
+    Status.TOO_COARSE: (
+        "the discretisation error {s.discretisation_error:.1e} m stayed above the tolerance {tolerance:.1e} m. Ask for "
+        "a coarser tolerance, or check the routing and the loads for extremely fast variation along the tubes."
+    ),
+    Status.COLLAPSED: (
+        "the solution found compresses a tube to {s.least_stretch:.3g} of its length, where linear elasticity means "
+        "nothing. A tension or an axial load is far too large, or EA too small; check their units."
+    ),
+}
