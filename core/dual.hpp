@@ -67,6 +67,9 @@ template <int K> inline void add_scaled(Dual<K>& a, double w, const Dual<K>& b) 
     for (int k = 0; k < K; ++k) a.d[k] += w * b.d[k];
 }
 
+inline double larger(double a, double b) { return a < b ? b : a; }
+inline double smaller(double a, double b) { return b < a ? b : a; }
+
 inline double value(double x) { return x; }
 template <int K> inline double value(const Dual<K>& x) { return x.v; }
 

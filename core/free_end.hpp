@@ -8,23 +8,9 @@
 #include <type_traits>
 
 #include "march.hpp"
+#include "rotations.hpp"
 
 namespace tactr {
-
-template <class T>
-inline void multiply_quaternions(const T* a, const T* b, T* out) {
-    out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
-    out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
-    out[2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
-    out[3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
-}
-
-/// Quaternion of a rotation about z.
-template <class T>
-inline void turn_about_z(const T& angle, T* q) {
-    sine_cosine(angle * 0.5, q[3], q[0]);
-    q[1] = q[2] = T(0.0);
-}
 
 template <class F>
 bool with_lanes(int count, F&& f) {
@@ -61,8 +47,8 @@ class Shooting {
 
     template <class M>
     void scale(M& march) const {
-        march.moment_scale = moment_scale;
-        march.force_scale = force_scale;
+        march.solver.moment_scale = moment_scale;
+        march.solver.force_scale = force_scale;
     }
 
     /// Lanes 0..: psi of tubes 1..n-1, then rotation of R_b about its own axes.
@@ -110,10 +96,23 @@ class Shooting {
         move(here, step, fraction, to);
     }
 
+    /// The step that leads from a to b, in the unknowns.
+    void difference(const FreeEnd<double>& a, const FreeEnd<double>& b, double* step) const {
+        for (int i = 1; i < tubes_; ++i) step[i - 1] = b.psi[i] - a.psi[i];
+        if (!world) return;
+        const double conjugate[4] = {a.quaternion[0], -a.quaternion[1], -a.quaternion[2], -a.quaternion[3]};
+        double q[4];
+        multiply_quaternions(conjugate, b.quaternion, q);
+        const double sign = q[0] < 0.0 ? -1.0 : 1.0;
+        const double half = std::sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        const double f = half > 1e-12 ? 2.0 * std::atan2(half, sign * q[0]) / half : 2.0;
+        for (int c = 0; c < 3; ++c) step[tubes_ - 1 + c] = sign * f * q[1 + c];
+    }
+
     double distance(const FreeEnd<double>& a, const FreeEnd<double>& b) const {
         double step[MAX_TUBES + 2], worst = 0.0;
         difference(a, b, step);
-        for (int i = 0; i < unknowns; ++i) worst = std::fmax(worst, std::fabs(step[i]));
+        for (int i = 0; i < unknowns; ++i) worst = larger(worst, std::fabs(step[i]));
         return worst;
     }
 
@@ -177,25 +176,13 @@ class Shooting {
         world = world || !body_axes;
     }
 
-    void difference(const FreeEnd<double>& a, const FreeEnd<double>& b, double* step) const {
-        for (int i = 1; i < tubes_; ++i) step[i - 1] = b.psi[i] - a.psi[i];
-        if (!world) return;
-        const double conjugate[4] = {a.quaternion[0], -a.quaternion[1], -a.quaternion[2], -a.quaternion[3]};
-        double q[4];
-        multiply_quaternions(conjugate, b.quaternion, q);
-        const double sign = q[0] < 0.0 ? -1.0 : 1.0;
-        const double half = std::sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-        const double f = half > 1e-12 ? 2.0 * std::atan2(half, sign * q[0]) / half : 2.0;
-        for (int c = 0; c < 3; ++c) step[tubes_ - 1 + c] = sign * f * q[1 + c];
-    }
-
     /// Moment that bends the softest tube by one radian over the robot's length, and the force that goes with it.
     void set_scales(const Robot& robot, double length) {
         double EI = std::numeric_limits<double>::max();
         for (int c = 0; c < STATES; ++c) error_weight[c] = 0.0;
         for (int i = 0; i < tubes_; ++i) {
             const TubePiece& piece = robot.pieces[robot.tubes[i].piece_begin];
-            EI = std::fmin(EI, std::fmin(piece.EIx, piece.EIy));
+            EI = smaller(EI, smaller(piece.EIx, piece.EIy));
             error_weight[PSI + i] = length;
             error_weight[N3 + i] = length / piece.EA;
             error_weight[M3 + i] = length * length / piece.GJ;

@@ -63,53 +63,52 @@ class Sampler {
 
     template <class M>
     void prepare(M& march, const Section<double>& section, const double* before, double s, double h) {
-        auto& k = march.work.k;
+        auto& k = march.k;
+        const int count = march.packing.count;
+        strains_ = start(march, section);
+        march.derivative(section, s + h, march.z, k[12], strains_);
         double stage[STATES];
-        std::copy(march.y, march.y + STATES, stage);
-        march.derivative(section, s + h, march.y, k[12], strains_ = start(march, section));
         for (int i = 13; i < dp8::DENSE_STAGES; ++i) {
-            for (int n = 0; n < march.state_count; ++n) {
-                const int c = march.state_index[n];
+            for (int n = 0; n < count; ++n) {
                 double sum = 0.0;
                 for (int j = 0; j < i; ++j)
-                    if (dp8::A[i][j] != 0.0) sum += dp8::A[i][j] * k[j][c];
-                stage[c] = before[c] + h * sum;
+                    if (dp8::A[i][j] != 0.0) sum += dp8::A[i][j] * k[j][n];
+                stage[n] = before[n] + h * sum;
             }
             march.derivative(section, s + h * dp8::C[i], stage, k[i], strains_);
         }
-        for (int n = 0; n < march.state_count; ++n) {
-            const int c = march.state_index[n];
-            const double rise = march.y[c] - before[c];
-            coefficient_[0][c] = rise;
-            coefficient_[1][c] = h * k[0][c] - rise;
-            coefficient_[2][c] = 2.0 * rise - h * (k[0][c] + k[12][c]);
+        for (int n = 0; n < count; ++n) {
+            const double rise = march.z[n] - before[n];
+            coefficient_[0][n] = rise;
+            coefficient_[1][n] = h * k[0][n] - rise;
+            coefficient_[2][n] = 2.0 * rise - h * (k[0][n] + k[12][n]);
             for (int t = 0; t < 4; ++t) {
                 double sum = 0.0;
-                for (int j = 0; j < dp8::DENSE_STAGES; ++j) sum += dp8::D[t][j] * k[j][c];
-                coefficient_[3 + t][c] = h * sum;
+                for (int j = 0; j < dp8::DENSE_STAGES; ++j) sum += dp8::D[t][j] * k[j][n];
+                coefficient_[3 + t][n] = h * sum;
             }
         }
     }
 
     template <class M>
     Strains start(M& march, const Section<double>& section) const {
-        Strains e = march.strains;
+        Strains e = march.solver.strains;
         if (section.guided) e.kx = e.ky = e.wx = e.wy = 0.0;
         return e;
     }
 
     template <class M>
     void read(M& march, const Section<double>& section, const double* before, double s, double h, int station) {
-        double state[STATES];
-        std::copy(before, before + STATES, state);
+        double packed[STATES], state[STATES];
+        std::copy(march.y, march.y + STATES, state);
         const double x = (stations_[station] - s) / h;
-        for (int n = 0; n < march.state_count; ++n) {
-            const int c = march.state_index[n];
+        for (int n = 0; n < march.packing.count; ++n) {
             double sum = 0.0;
-            for (int t = dp8::DENSE_TERMS - 1; t >= 0; --t) sum = (sum + coefficient_[t][c]) * (t % 2 == 0 ? x : 1.0 - x);
-            state[c] += sum;
+            for (int t = dp8::DENSE_TERMS - 1; t >= 0; --t) sum = (sum + coefficient_[t][n]) * (t % 2 == 0 ? x : 1.0 - x);
+            packed[n] = before[n] + sum;
+            state[march.packing.index[n]] = packed[n];
         }
-        march.solve_section(section, stations_[station], state, strains_);
+        march.solver.solve(section, stations_[station], packed, march.packing, strains_);
         record(march, section, state, samples_.stations[station]);
         record_tendons(march, section, station);
     }
@@ -124,7 +123,7 @@ class Sampler {
         for (int a = 0; a < section.active_count; ++a) {
             const int i = section.active[a];
             const TubePiece& piece = robot_.pieces[section.piece[a]];
-            const double c = march.cosine[a], s = march.sine[a], stretch = 1.0 + strains_.eta[a];
+            const double c = march.solver.cosine[a], s = march.solver.sine[a], stretch = 1.0 + strains_.eta[a];
             out.present[i] = 1;
             out.psi[i] = state[PSI + i];
             const double u[3] = {c * strains_.kx + s * strains_.ky, c * strains_.ky - s * strains_.kx, strains_.tau[a]};
@@ -147,7 +146,7 @@ class Sampler {
     void record_tendons(M& march, const Section<double>& section, int station) {
         for (int j = 0; j < robot_.tendon_count; ++j) samples_.tendon[station * robot_.tendon_count + j] = TendonRecord{-1, {0, 0}, 0};
         for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
-            const TendonState<double>& tendon = march.work.tendons[h - section.hosted.begin];
+            const TendonState<double>& tendon = march.solver.tendons[h - section.hosted.begin];
             samples_.tendon[station * robot_.tendon_count + layout_.hosted[h].tendon] =
                 TendonRecord{section.active[tendon.slot], {tendon.r[0], tendon.r[1]}, tendon.tension};
         }
@@ -174,8 +173,7 @@ inline bool sample(const Robot& robot, const Solution& solution, const std::vect
     const Layout<double> layout = cut_into_sections(robot, solution.translation.data());
     const Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
     const Shooting shooting(robot, layout);
-    Workspace<double, double> work;
-    March<double, double> march(robot, layout, actuation, work, shooting.full_options());
+    March<double, double> march(robot, layout, actuation, shooting.full_options());
     shooting.scale(march);
     Mesh mesh = solution.mesh;
     Sampler sampler(robot, layout, stations, samples);

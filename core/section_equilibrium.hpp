@@ -78,49 +78,75 @@ inline void add_tendon(const TendonState<P>& tendon, const T& c, const T& s, con
     M[2] += r[0] * fy - r[1] * fx;
 }
 
-/// d(N_x, N_y, N_3, M_x, M_y, M_3) / d(kx, ky, wx, wy, tau, eta) of one tube.
-using TubeTangent = double[6][6];
+/// Tangent stiffness of one tube, d(N, M)/d(v, u) in R_b: symmetric, so only one of each pair is kept.
+struct TubeTangent {
+    double vv[6];     // xx, xy, xz, yy, yz, zz
+    double uu[6];
+    double vu[3][3];  // dN/du
+};
 
-inline void elastic_tangent(const TubePiece& tube, double c, double s, const Strains& e, int slot, TubeTangent& J) {
-    for (int a = 0; a < 6; ++a)
-        for (int b = 0; b < 6; ++b) J[a][b] = 0.0;
-    const double stretch = 1.0 + e.eta[slot];
-    J[0][2] = J[1][3] = tube.GA * stretch;
-    J[0][5] = tube.GA * e.wx;
-    J[1][5] = tube.GA * e.wy;
-    J[2][5] = tube.EA;
-    J[3][0] = tube.EIx * c * c + tube.EIy * s * s;
-    J[3][1] = J[4][0] = (tube.EIx - tube.EIy) * c * s;
-    J[4][1] = tube.EIx * s * s + tube.EIy * c * c;
-    J[5][4] = tube.GJ;
+inline void elastic_tangent(const TubePiece& tube, double c, double s, TubeTangent& K) {
+    K = TubeTangent{};
+    K.vv[0] = K.vv[3] = tube.GA;
+    K.vv[5] = tube.EA;
+    K.uu[0] = tube.EIx * c * c + tube.EIy * s * s;
+    K.uu[1] = (tube.EIx - tube.EIy) * c * s;
+    K.uu[3] = tube.EIx * s * s + tube.EIy * c * c;
+    K.uu[5] = tube.GJ;
 }
 
-/// Adds lambda/|q| (I - t t^T), seen through r, to the tangent of the tendon's host.
-inline void add_tendon_tangent(const TendonTangent& tendon, const Strains& e, int slot, TubeTangent& J) {
+/// Adds G = lambda/|q| (I - t t^T), seen through r, to the tangent of the tendon's host.
+inline void add_tendon_tangent(const TendonTangent& tendon, TubeTangent& K) {
     const double g = tendon.stiffness, x = tendon.x, y = tendon.y;
     const double* t = tendon.t;
-    const double stretch = 1.0 + e.eta[slot];
-    const double G00 = g * (1.0 - t[0] * t[0]), G11 = g * (1.0 - t[1] * t[1]), G22 = g * (1.0 - t[2] * t[2]);
-    const double G01 = -g * t[0] * t[1], G02 = -g * t[0] * t[2], G12 = -g * t[1] * t[2];
-    const double G[3][3] = {{G00, G01, G02}, {G01, G11, G12}, {G02, G12, G22}};
-    double F[3][6];
+    const double gx = g * t[0], gy = g * t[1];
+    const double xx = g - gx * t[0], xy = -gx * t[1], xz = -gx * t[2];
+    const double yy = g - gy * t[1], yz = -gy * t[2], zz = g - g * t[2] * t[2];
+    K.vv[0] += xx;
+    K.vv[1] += xy;
+    K.vv[2] += xz;
+    K.vv[3] += yy;
+    K.vv[4] += yz;
+    K.vv[5] += zz;
+    const double column[3] = {x * xy - y * xx, x * yy - y * xy, x * yz - y * xz};  // dF/du_3
+    const double z[3] = {xz, yz, zz};
     for (int a = 0; a < 3; ++a) {
-        F[a][0] = G[a][2] * y;
-        F[a][1] = -G[a][2] * x;
-        F[a][2] = stretch * G[a][0];
-        F[a][3] = stretch * G[a][1];
-        F[a][4] = x * G[a][1] - y * G[a][0];
-        F[a][5] = e.wx * G[a][0] + e.wy * G[a][1] + G[a][2];
+        K.vu[a][0] += y * z[a];
+        K.vu[a][1] -= x * z[a];
+        K.vu[a][2] += column[a];
     }
-    for (int b = 0; b < 6; ++b) {
-        J[0][b] += F[0][b];
-        J[1][b] += F[1][b];
-        J[2][b] += F[2][b];
-        J[3][b] += y * F[2][b];
-        J[4][b] -= x * F[2][b];
-        J[5][b] += x * F[1][b] - y * F[0][b];
-    }
+    K.uu[0] += y * y * zz;
+    K.uu[1] -= x * y * zz;
+    K.uu[2] += y * column[2];
+    K.uu[3] += x * x * zz;
+    K.uu[4] -= x * column[2];
+    K.uu[5] += x * column[1] - y * column[0];
 }
+
+/// Rows of one tube's Jacobian: d(N_x, N_y, M_x, M_y, M_3, N_3) / d(kx, ky, wx, wy, tau, eta), v = (1 + eta) (wx, wy, 1).
+struct TubeRows {
+    double Nx[6], Ny[6], Mx[6], My[6], M3[6], N3[6];
+
+    void set(const TubeTangent& K, double wx, double wy, double eta) {
+        const double f = 1.0 + eta;
+        row(Nx, K.vu[0][0], K.vu[0][1], K.vu[0][2], K.vv[0], K.vv[1], K.vv[2], wx, wy, f);
+        row(Ny, K.vu[1][0], K.vu[1][1], K.vu[1][2], K.vv[1], K.vv[3], K.vv[4], wx, wy, f);
+        row(N3, K.vu[2][0], K.vu[2][1], K.vu[2][2], K.vv[2], K.vv[4], K.vv[5], wx, wy, f);
+        row(Mx, K.uu[0], K.uu[1], K.uu[2], K.vu[0][0], K.vu[1][0], K.vu[2][0], wx, wy, f);
+        row(My, K.uu[1], K.uu[3], K.uu[4], K.vu[0][1], K.vu[1][1], K.vu[2][1], wx, wy, f);
+        row(M3, K.uu[2], K.uu[4], K.uu[5], K.vu[0][2], K.vu[1][2], K.vu[2][2], wx, wy, f);
+    }
+
+  private:
+    static void row(double* r, double ux, double uy, double uz, double vx, double vy, double vz, double wx, double wy, double f) {
+        r[0] = ux;
+        r[1] = uy;
+        r[2] = f * vx;
+        r[3] = f * vy;
+        r[4] = uz;
+        r[5] = wx * vx + wy * vy + vz;
+    }
+};
 
 /// The section's Jacobian with every tube's 2x2 block (tau, eta) eliminated: a 4x4 system, factored.
 struct SectionFactor {
@@ -131,13 +157,12 @@ struct SectionFactor {
     double lu[4][4];                   // rows Qx, Qy, Sx, Sy; unit lower part below the diagonal
     double pivot[4];                   // inverse diagonal
 
-    bool factor(const TubeTangent* J, int tubes, bool guided_section) {
-        constexpr int row[4] = {3, 4, 0, 1};
+    bool factor(const TubeRows* J, int tubes, bool guided_section) {
         count = tubes;
         guided = guided_section;
         double A[4][4] = {};
         for (int i = 0; i < tubes; ++i) {
-            const double a = J[i][5][4], b = J[i][5][5], c = J[i][2][4], d = J[i][2][5];
+            const double a = J[i].M3[4], b = J[i].M3[5], c = J[i].N3[4], d = J[i].N3[5];
             const double determinant = a * d - b * c;
             if (!(determinant > 0.0)) return false;
             const double f = 1.0 / determinant;
@@ -147,15 +172,17 @@ struct SectionFactor {
             inverse[i][1][1] = a * f;
             if (guided_section) continue;
             for (int k = 0; k < 4; ++k) {
-                coupling[i][0][k] = J[i][5][k];
-                coupling[i][1][k] = J[i][2][k];
+                coupling[i][0][k] = J[i].M3[k];
+                coupling[i][1][k] = J[i].N3[k];
             }
+            const double* rows[4] = {J[i].Mx, J[i].My, J[i].Nx, J[i].Ny};
             for (int r = 0; r < 4; ++r) {
-                const double p = J[i][row[r]][4], q = J[i][row[r]][5];
-                lift[i][r][0] = p * inverse[i][0][0] + q * inverse[i][1][0];
-                lift[i][r][1] = p * inverse[i][0][1] + q * inverse[i][1][1];
-                for (int k = 0; k < 4; ++k)
-                    A[r][k] += J[i][row[r]][k] - lift[i][r][0] * coupling[i][0][k] - lift[i][r][1] * coupling[i][1][k];
+                const double p = rows[r][4], q = rows[r][5];
+                const double u = p * inverse[i][0][0] + q * inverse[i][1][0];
+                const double v = p * inverse[i][0][1] + q * inverse[i][1][1];
+                lift[i][r][0] = u;
+                lift[i][r][1] = v;
+                for (int k = 0; k < 4; ++k) A[r][k] += rows[r][k] - u * J[i].M3[k] - v * J[i].N3[k];
             }
         }
         return guided_section || eliminate(A);

@@ -27,13 +27,12 @@ struct Solution {
     double least_stretch = 1.0;
     double base_determinant = 0.0;  // of d(base)/d(free end)
     bool used_continuation = false;
+    double jacobian[MAX_UNKNOWNS][MAX_UNKNOWNS];  // d(base)/d(free end), last computed
     FreeEnd<double> free_end;
     Mesh mesh;
     std::vector<double> tension, rotation, translation, tendon_length;
     double tip_position[3] = {}, tip_quaternion[4] = {1, 0, 0, 0};
 };
-
-constexpr int MAX_UNKNOWNS = MAX_TUBES + 2;
 
 /// Solves A x = b in place by Gaussian elimination with partial pivoting; returns the determinant (0: singular).
 inline double solve_dense(int n, double A[MAX_UNKNOWNS][MAX_UNKNOWNS], double b[MAX_UNKNOWNS]) {
@@ -76,6 +75,9 @@ class Solver {
         if (solution.mesh.steps.size() != layout_.sections.size()) solution.mesh.steps.assign(layout_.sections.size(), 1);
         if (solution.mesh.strains.size() != static_cast<size_t>(solution.mesh.total()) * dp8::STAGES) solution.mesh.fit();
         solution.mesh.warm = guess.mesh.warm && guess.mesh.strains.size() == solution.mesh.strains.size();
+        marched_ = guess.free_end;
+        std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
+        if (shooting_.unknowns > 0 && guess.status == Status::converged) chord_step(solution);
         if (!polish(solution)) solve_cold(solution);
     }
 
@@ -96,12 +98,13 @@ class Solver {
     Settings settings_;
     Layout<double> layout_;
     Shooting shooting_;
-    double residual_[MAX_UNKNOWNS], jacobian_[MAX_UNKNOWNS][MAX_UNKNOWNS];
-    bool full_ = false;  // whether the last march carried the path and the error estimate
+    double residual_[MAX_UNKNOWNS];
+    FreeEnd<double> marched_;  // free end of the last march that filled the mesh
+    bool full_ = false, strict_ = false;  // how the last march was made
 
     double norm(const double* r) const {
         double worst = 0.0;
-        for (int i = 0; i < shooting_.unknowns; ++i) worst = std::fmax(worst, std::fabs(r[i]));
+        for (int i = 0; i < shooting_.unknowns; ++i) worst = larger(worst, std::fabs(r[i]));
         return worst;
     }
 
@@ -116,28 +119,54 @@ class Solver {
         Actuation<double> actuation = actuation_;
         if (unloaded) actuation.load_scale = 0.0;
         solution.mesh.steps.assign(layout_.sections.size(), 1);
-        March<double, double> march(robot_, layout_, actuation, work_, shooting_.full_options());
+        March<double, double> march(robot_, layout_, actuation, shooting_.full_options());
         shooting_.scale(march);
         march.error_weight = shooting_.error_weight;
         march.adapt_tolerance = settings_.tolerance;
+        march.solver.strict = false;
         const bool found = march.run(solution.free_end, solution.mesh);
         if (found && unloaded) shooting_.upright(march.base, actuation_.rotation[0], solution.free_end);
         solution.mesh.fit();
     }
 
-    /// One march with derivatives at the given free end. full: with path and error estimate.
-    bool evaluate(Solution& solution, bool full) {
+    /// One march with derivatives at the given free end. full: with path and error estimate. strict: every section to
+    /// its tolerance.
+    bool evaluate(Solution& solution, bool full, bool strict) {
         ++solution.iterations;
         full_ = full;
-        return with_lanes(shooting_.unknowns + (full ? 1 : 0), [&](auto lanes) { return evaluate_lanes<decltype(lanes)::value>(solution, full); });
+        strict_ = strict;
+        return with_lanes(shooting_.unknowns + (full ? 1 : 0), [&](auto lanes) { return evaluate_lanes<decltype(lanes)::value>(solution, full, strict); });
     }
 
+    void tell_shift(Solution& solution) {
+        shooting_.difference(marched_, solution.free_end, solution.mesh.shift);
+        marched_ = solution.free_end;
+    }
+
+    /// A step with the neighbour's derivatives: one march without any.
+    void chord_step(Solution& solution) {
+        March<double, double> march(robot_, layout_, actuation_, shooting_.newton_options());
+        shooting_.scale(march);
+        march.solver.strict = false;
+        const FreeEnd<double> from = solution.free_end;
+        tell_shift(solution);
+        if (!march.run(from, solution.mesh)) return;
+        double A[MAX_UNKNOWNS][MAX_UNKNOWNS], step[MAX_UNKNOWNS];
+        shooting_.residual(march.base, actuation_.rotation, step);
+        for (int i = 0; i < shooting_.unknowns; ++i)
+            for (int j = 0; j < shooting_.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
+        if (solve_dense(shooting_.unknowns, A, step) == 0.0) return;
+        const double longest = norm(step);
+        if (longest < LONGEST_CHORD) shooting_.move(from, step, -1.0, solution.free_end);
+    }
+
+    static constexpr double LONGEST_CHORD = 0.5;  // rad
+
     template <int K>
-    bool evaluate_lanes(Solution& solution, bool full) {
+    bool evaluate_lanes(Solution& solution, bool full, bool strict) {
         using T = Dual<K>;
-        static thread_local Workspace<T, double> work;
         const MarchOptions options = full ? shooting_.full_options() : shooting_.newton_options();
-        March<T, double> march(robot_, layout_, actuation_, work, options);
+        March<T, double> march(robot_, layout_, actuation_, options);
         shooting_.scale(march);
         FreeEnd<T> end;
         shooting_.seed(solution.free_end, end);
@@ -145,6 +174,9 @@ class Solver {
             march.error_weight = shooting_.error_weight;
             march.error_lane = shooting_.unknowns;
         }
+        march.solver.strict = strict;
+        march.slope_lanes = shooting_.unknowns;
+        tell_shift(solution);
         if (!march.run(end, solution.mesh)) return false;
         T r[MAX_UNKNOWNS];
         shooting_.residual(march.base, actuation_.rotation, r);
@@ -152,13 +184,13 @@ class Solver {
             residual_[i] = r[i].v;
             if (!std::isfinite(r[i].v)) return false;
             for (int j = 0; j < shooting_.unknowns; ++j) {
-                jacobian_[i][j] = r[i].d[j];
+                solution.jacobian[i][j] = r[i].d[j];
                 if (!std::isfinite(r[i].d[j])) return false;
             }
         }
         solution.base_residual = norm(residual_);
-        solution.section_residual = march.worst_section_residual;
-        solution.least_stretch = march.least_stretch;
+        solution.section_residual = march.solver.worst_residual;
+        solution.least_stretch = march.solver.least_stretch;
         if (full) read_tip(solution, march, end, r);
         return true;
     }
@@ -171,7 +203,7 @@ class Solver {
         double A[MAX_UNKNOWNS][MAX_UNKNOWNS], shift[MAX_UNKNOWNS];
         for (int i = 0; i < e; ++i) {
             shift[i] = r[i].d[e];
-            for (int j = 0; j < e; ++j) A[i][j] = jacobian_[i][j];
+            for (int j = 0; j < e; ++j) A[i][j] = solution.jacobian[i][j];
         }
         solution.base_determinant = solve_dense(e, A, shift);
         double error = 0.0;
@@ -188,23 +220,23 @@ class Solver {
     }
 
     std::vector<double> section_error_;
-    Workspace<double, double> work_;
 
     /// Newton with backtracking on the largest residual. True: below tolerance, with path and error estimate read.
     bool newton(Solution& solution, double tolerance, bool full_at_end) {
-        if (!evaluate(solution, full_at_end && shooting_.unknowns == 0)) return fail(solution, Status::no_equilibrium);
+        const bool at_once = full_at_end && shooting_.unknowns == 0;
+        if (!evaluate(solution, at_once, at_once)) return fail(solution, Status::no_equilibrium);
         for (int iteration = 0; iteration < settings_.max_iterations; ++iteration) {
             const double size = solution.base_residual;
             if (size <= tolerance) {
-                if (full_ || !full_at_end) return true;
-                if (!evaluate(solution, true)) return fail(solution, Status::no_equilibrium);
+                if (!full_at_end || (full_ && strict_)) return true;
+                if (!evaluate(solution, true, true)) return fail(solution, Status::no_equilibrium);
                 continue;
             }
             if (solution.iterations > settings_.max_passes) break;
             double A[MAX_UNKNOWNS][MAX_UNKNOWNS], step[MAX_UNKNOWNS];
             for (int i = 0; i < shooting_.unknowns; ++i) {
                 step[i] = -residual_[i];
-                for (int j = 0; j < shooting_.unknowns; ++j) A[i][j] = jacobian_[i][j];
+                for (int j = 0; j < shooting_.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
             }
             if (solve_dense(shooting_.unknowns, A, step) == 0.0) break;
             if (!backtrack(solution, step, size, full_at_end)) break;
@@ -224,8 +256,8 @@ class Solver {
         double fraction = longest > LONGEST ? LONGEST / longest : 1.0;
         for (int attempt = 0; attempt < 10; ++attempt, fraction *= 0.4) {
             shooting_.move(from, step, fraction, solution.free_end);
-            const bool near = full_at_end && size < 3e-3 && fraction == 1.0;
-            if (evaluate(solution, near) && (solution.base_residual < (1.0 - 0.1 * fraction) * size)) return true;
+            const bool near = full_at_end && size < 1e-4 && fraction == 1.0;  // Newton squares it: the last march
+            if (evaluate(solution, near, near) && (solution.base_residual < (1.0 - 0.1 * fraction) * size)) return true;
             // at the rounding floor no further decrease can be asked for
             if (size < 10.0 * settings_.residual_tolerance && solution.base_residual <= settings_.residual_tolerance) return true;
         }
@@ -272,7 +304,7 @@ class Solver {
         FreeEnd<double> before = solution.free_end, here = solution.free_end;
         double done = 0.0, previous = 0.0, step = 0.2;
         while (done < 1.0 && step > 1e-4 && solution.iterations < settings_.max_passes) {
-            const double next = std::fmin(1.0, done + step);
+            const double next = smaller(1.0, done + step);
             actuation_.shape_scale = target.shape_scale * next;
             actuation_.load_scale = target.load_scale * next;
             if (done > previous)

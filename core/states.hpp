@@ -1,0 +1,101 @@
+// What the march carries, and what surrounds it: free end, base, mesh.
+#pragma once
+#include <type_traits>
+#include <vector>
+
+#include "dp8_tableau.hpp"
+#include "dual.hpp"
+#include "robot.hpp"
+#include "section_equilibrium.hpp"
+
+namespace tactr {
+
+// Where each state stands in the state vector.
+constexpr int PSI = 0;                 // angle of tube i's material frame from R_b
+constexpr int N3 = MAX_TUBES;          // axial resultant of tube i
+constexpr int M3 = 2 * MAX_TUBES;      // torsional resultant of tube i
+constexpr int SUM_N = 3 * MAX_TUBES;   // (S_x, S_y): transverse resultant of all tubes, in R_b
+constexpr int SUM_M = SUM_N + 2;       // (Q_x, Q_y)
+constexpr int QUAT = SUM_M + 2;        // R_b as a quaternion w, x, y, z
+constexpr int POS = QUAT + 4;          // p
+constexpr int STATES = POS + 3;
+
+constexpr int MAX_UNKNOWNS = MAX_TUBES + 2;
+constexpr int STRAINS = 4 + 2 * MAX_TUBES;  // of one section, at most
+
+template <class T>
+using LaneCount = std::conditional_t<std::is_same_v<T, double>, std::integral_constant<int, 0>,
+                                     std::integral_constant<int, (sizeof(T) / sizeof(double)) - 1>>;
+
+/// Which states the march carries beside the tubes' own.
+struct MarchOptions {
+    bool sums;   // transverse resultants summed over the tubes: zero for one tube without external loads
+    bool frame;  // R_b: for loads in world axes, and for the path
+    bool path;   // p, and the lengths of the tendons
+};
+
+/// Free-end unknowns: angle of every tube at its distal end, and R_b at the tip.
+template <class T>
+struct FreeEnd {
+    T psi[MAX_TUBES];
+    T quaternion[4];
+};
+
+/// What the march finds at the base.
+template <class T>
+struct BaseState {
+    T psi[MAX_TUBES];  // at each tube's own proximal end
+    T quaternion[4];   // R_b at the guide exit
+    T position[3];     // p at the guide exit (p = 0 at the tip)
+};
+
+/// Steps per section, and the strains found at every stage with their slopes in the unknowns: the next march starts
+/// its sections from strains + slopes * shift.
+struct Mesh {
+    std::vector<int> steps;
+    std::vector<Strains> strains;
+    std::vector<double> slopes;  // stage-major, unknowns innermost
+    int unknowns = 0;            // 0: no slopes
+    double shift[MAX_UNKNOWNS] = {};
+    bool warm = false;
+
+    int total() const {
+        int sum = 0;
+        for (int n : steps) sum += n;
+        return sum;
+    }
+    void fit() {
+        strains.resize(static_cast<size_t>(total()) * dp8::STAGES);
+        unknowns = 0;
+        warm = false;
+    }
+};
+
+/// The states that change in one section, side by side: psi, N_3, M_3 of every tube present, then the shared ones.
+struct Packing {
+    int index[STATES];  // place in the full state vector
+    int count = 0;
+    int sums = -1, frame = -1, path = -1;  // where the shared states start; -1: absent
+
+    void set(const int* active, int active_count, bool guided, const MarchOptions& options) {
+        count = 0;
+        for (int a = 0; a < active_count; ++a) {
+            index[count++] = PSI + active[a];
+            index[count++] = N3 + active[a];
+            index[count++] = M3 + active[a];
+        }
+        sums = frame = path = -1;
+        if (options.sums && !guided) sums = append(SUM_N, 4);
+        if (options.frame) frame = append(QUAT, 4);
+        if (options.path && !guided) path = append(POS, 3);
+    }
+
+  private:
+    int append(int first, int number) {
+        const int place = count;
+        for (int c = 0; c < number; ++c) index[count++] = first + c;
+        return place;
+    }
+};
+
+}  // namespace tactr

@@ -1,0 +1,37 @@
+"""Description of a robot: immutable plain data, checked when it is built; no solver in sight."""
+
+from tactr.robot.fitted import Function, Spline
+from tactr.robot.load import DistributedLoad, Gravity, Load, PointLoad
+from tactr.robot.material import Material
+from tactr.robot.piece import RoutingPiece
+from tactr.robot.piecewise import Piecewise
+from tactr.robot.robot import Robot
+from tactr.robot.routing import Helix, PolarPolynomial, Polynomial, Routing, Straight
+from tactr.robot.section import Annulus, Rod, Section, Stiffness
+from tactr.robot.tendon import Tendon, TensionProfile
+from tactr.robot.tube import Tube
+
+__all__ = [
+    "Annulus",
+    "DistributedLoad",
+    "Function",
+    "Gravity",
+    "Helix",
+    "Load",
+    "Material",
+    "Piecewise",
+    "PointLoad",
+    "PolarPolynomial",
+    "Polynomial",
+    "Robot",
+    "Rod",
+    "Routing",
+    "RoutingPiece",
+    "Section",
+    "Spline",
+    "Stiffness",
+    "Straight",
+    "Tendon",
+    "TensionProfile",
+    "Tube",
+]
