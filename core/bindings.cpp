@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sample.hpp"
+#include "sensitivity.hpp"
 #include "solve.hpp"
 
 namespace nb = nanobind;
@@ -126,7 +127,7 @@ std::vector<double> copied(const Vector& v, size_t expected, const char* name) {
 }
 
 tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
-                      double tolerance, double residual_tolerance, const tactr::Solution* guess) {
+                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps) {
     tactr::Solution solution;
     solution.tension = copied(tension, robot.tendons.size(), "tension");
     solution.rotation = copied(rotation, robot.tubes.size(), "rotation");
@@ -137,6 +138,7 @@ tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const V
     tactr::Settings settings;
     settings.tolerance = tolerance;
     settings.residual_tolerance = residual_tolerance;
+    settings.fixed_steps = steps;
     tactr::Solver solver(view, actuation, settings);
     if (guess) {
         solver.solve_from(*guess, solution);
@@ -205,6 +207,16 @@ nb::object vector_of(const double* data, size_t count) {
     return nb::cast(array_of(std::vector<double>(data, data + count), shape));
 }
 
+nb::object tip_jacobian(const PreparedRobot& robot, const tactr::Solution& solution) {
+    tactr::TipJacobian jacobian;
+    const tactr::Robot view = robot.view();
+    if (!tactr::Sensitivity(view, solution).tip(jacobian)) throw std::runtime_error("the solution has no tip Jacobian: it is singular");
+    std::vector<double> data;
+    for (const auto& row : jacobian.rows) data.insert(data.end(), row.begin(), row.end());
+    const size_t shape[2] = {6, static_cast<size_t>(jacobian.columns)};
+    return nb::cast(array_of(std::move(data), shape));
+}
+
 }  // namespace
 
 NB_MODULE(_core, m) {
@@ -243,6 +255,7 @@ NB_MODULE(_core, m) {
         .def_prop_ro("tip_quaternion", [](const tactr::Solution& s) { return vector_of(s.tip_quaternion, 4); });
 
     m.def("solve", &solve, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
-          "guess"_a = nb::none(), "Free-end unknowns, residuals and tip of one robot at one actuation.");
+          "guess"_a = nb::none(), "steps"_a = 0, "Free-end unknowns, residuals and tip of one robot at one actuation.");
+    m.def("tip_jacobian", &tip_jacobian, "robot"_a, "solution"_a, "d(tip position, tip rotation)/d(tensions, rotations).");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
 }

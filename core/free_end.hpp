@@ -51,22 +51,23 @@ class Shooting {
         march.solver.force_scale = force_scale;
     }
 
-    /// Lanes 0..: psi of tubes 1..n-1, then rotation of R_b about its own axes.
+    /// Unknowns: psi of tubes 1..n-1, then the rotation of R_b about its own axes; unknown u sits in lane u - first.
     template <int K>
-    void seed(const FreeEnd<double>& at, FreeEnd<Dual<K>>& end) const {
+    void seed(const FreeEnd<double>& at, int first, FreeEnd<Dual<K>>& end) const {
+        const auto lane = [first](int unknown) { return unknown >= first && unknown < first + K ? unknown - first : -1; };
         for (int i = 0; i < tubes_; ++i) {
             end.psi[i] = Dual<K>(at.psi[i]);
-            if (i > 0 && i <= K) end.psi[i].d[i - 1] = 1.0;
+            if (i > 0 && lane(i - 1) >= 0) end.psi[i].d[lane(i - 1)] = 1.0;
         }
         for (int c = 0; c < 4; ++c) end.quaternion[c] = Dual<K>(at.quaternion[c]);
         if (!world) return;
         for (int axis = 0; axis < 3; ++axis) {
+            const int l = lane(tubes_ - 1 + axis);
+            if (l < 0) continue;
             double half[4] = {0, 0, 0, 0}, turned[4];
             half[1 + axis] = 0.5;
             multiply_quaternions(at.quaternion, half, turned);
-            const int lane = tubes_ - 1 + axis;
-            if (lane >= K) return;
-            for (int c = 0; c < 4; ++c) end.quaternion[c].d[lane] = turned[c];
+            for (int c = 0; c < 4; ++c) end.quaternion[c].d[l] = turned[c];
         }
     }
 

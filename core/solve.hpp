@@ -14,6 +14,7 @@ enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse =
 struct Settings {
     double tolerance = 1e-6;           // discretisation error at the tip, m
     double residual_tolerance = 1e-9;  // rad at the base
+    int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
     int max_passes = 3000;             // of the whole solve
 };
@@ -114,16 +115,17 @@ class Solver {
         solution.mesh.steps.assign(layout_.sections.size(), 1);
     }
 
+    static constexpr double MESH_SLACK = 5.0;  // the sum over a section's states overrates its effect on the tip
+
     /// One plain march chooses the steps; with loads in world axes it also turns the unloaded robot's base upright.
     void choose_mesh(Solution& solution, bool unloaded) {
         Actuation<double> actuation = actuation_;
         if (unloaded) actuation.load_scale = 0.0;
-        solution.mesh.steps.assign(layout_.sections.size(), 1);
+        solution.mesh.steps.assign(layout_.sections.size(), settings_.fixed_steps > 0 ? settings_.fixed_steps : 1);
         March<double, double> march(robot_, layout_, actuation, shooting_.full_options());
         shooting_.scale(march);
         march.error_weight = shooting_.error_weight;
-        march.adapt_tolerance = settings_.tolerance;
-        march.solver.strict = false;
+        march.adapt_tolerance = MESH_SLACK * (settings_.fixed_steps > 0 ? 1e300 : settings_.tolerance);
         const bool found = march.run(solution.free_end, solution.mesh);
         if (found && unloaded) shooting_.upright(march.base, actuation_.rotation[0], solution.free_end);
         solution.mesh.fit();
@@ -169,7 +171,7 @@ class Solver {
         March<T, double> march(robot_, layout_, actuation_, options);
         shooting_.scale(march);
         FreeEnd<T> end;
-        shooting_.seed(solution.free_end, end);
+        shooting_.seed(solution.free_end, 0, end);
         if (full) {
             march.error_weight = shooting_.error_weight;
             march.error_lane = shooting_.unknowns;
@@ -214,10 +216,12 @@ class Solver {
             solution.tip_position[a] = position[a].v;
         }
         for (int a = 0; a < 4; ++a) solution.tip_quaternion[a] = quaternion[a].v;
-        solution.discretisation_error = std::sqrt(error);
+        solution.discretisation_error = ERROR_SAFETY * std::sqrt(error);
         section_error_ = march.section_error;
         solution.tendon_length = march.tendon_length;
     }
+
+    static constexpr double ERROR_SAFETY = 2.0;  // the embedded estimate, carried to the tip, underrates the coarsest meshes
 
     std::vector<double> section_error_;
 
@@ -269,7 +273,7 @@ class Solver {
     bool polish(Solution& solution) {
         for (int round = 0; round < 8; ++round) {
             if (!newton(solution, settings_.residual_tolerance, true)) return false;
-            if (solution.discretisation_error <= settings_.tolerance) {
+            if (solution.discretisation_error <= settings_.tolerance || settings_.fixed_steps > 0) {
                 if (solution.least_stretch < LEAST_STRETCH) return fail(solution, Status::collapsed);
                 solution.status = Status::converged;
                 return true;
@@ -281,16 +285,19 @@ class Solver {
 
     static constexpr double LEAST_STRETCH = 0.2;  // linear elasticity means nothing at such compression
 
+    /// More steps where the error comes from, as many as an eighth-order rule needs to bring the tip below tolerance.
     bool refine(Solution& solution) {
-        const double share = 0.3 * settings_.tolerance / static_cast<double>(section_error_.size());
+        double largest = 0.0;
+        for (double error : section_error_) largest = larger(largest, error);
+        const double ratio = solution.discretisation_error / (0.5 * settings_.tolerance);
         bool finer = false;
         for (size_t k = 0; k < section_error_.size(); ++k) {
-            if (!(section_error_[k] > share)) continue;
-            double factor = std::pow(section_error_[k] / share, 0.125);
-            factor = factor > 3.0 ? 3.0 : factor;
-            int steps = static_cast<int>(std::ceil(factor * solution.mesh.steps[k]));
-            if (steps > March<double, double>::MAX_STEPS) steps = March<double, double>::MAX_STEPS;
-            finer = finer || steps > solution.mesh.steps[k];
+            const double excess = ratio * section_error_[k] / largest;
+            if (!(excess > 0.5)) continue;
+            const double factor = smaller(3.0, std::pow(excess, 0.125));
+            const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
+            const int steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(factor * now))));
+            finer = finer || steps > now;
             solution.mesh.steps[k] = steps;
         }
         solution.mesh.fit();

@@ -1,0 +1,112 @@
+"""Tendon-actuated concentric tube robots: description, statics, files, plots.
+
+Names are imported when first used, so that ``import tactr`` and ``tactr --help`` stay light.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tactr import materials, reference
+    from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
+    from tactr.io import load, save
+    from tactr.robot import (
+        Annulus,
+        DistributedLoad,
+        Function,
+        Gravity,
+        Helix,
+        Material,
+        Piecewise,
+        PointLoad,
+        PolarPolynomial,
+        Polynomial,
+        Robot,
+        Rod,
+        Spline,
+        Stiffness,
+        Straight,
+        Tendon,
+        TensionProfile,
+        Tube,
+    )
+    from tactr.statics import Prepared, Shape, Status, TendonShape, TubeShape, solve
+
+_HOME = {
+    "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
+    "tactr.io": ("load", "save"),
+    "tactr.robot": (
+        "Annulus",
+        "DistributedLoad",
+        "Function",
+        "Gravity",
+        "Helix",
+        "Material",
+        "Piecewise",
+        "PointLoad",
+        "PolarPolynomial",
+        "Polynomial",
+        "Robot",
+        "Rod",
+        "Spline",
+        "Stiffness",
+        "Straight",
+        "Tendon",
+        "TensionProfile",
+        "Tube",
+    ),
+    "tactr.statics": ("Prepared", "Shape", "Status", "TendonShape", "TubeShape", "solve"),
+}
+_MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
+_SUBMODULES = ("materials", "reference")
+
+__version__ = "0.1.0"
+__all__ = [
+    "Annulus",
+    "DistributedLoad",
+    "FileError",
+    "Function",
+    "Gravity",
+    "Helix",
+    "Material",
+    "MissingExtra",
+    "NotConverged",
+    "Piecewise",
+    "PointLoad",
+    "PolarPolynomial",
+    "Polynomial",
+    "Prepared",
+    "Robot",
+    "RobotError",
+    "Rod",
+    "Shape",
+    "Spline",
+    "Status",
+    "Stiffness",
+    "Straight",
+    "TactrError",
+    "Tendon",
+    "TendonShape",
+    "TensionProfile",
+    "Tube",
+    "TubeShape",
+    "load",
+    "materials",
+    "reference",
+    "save",
+    "solve",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _SUBMODULES:
+        return import_module(f"tactr.{name}")
+    if name in _MODULE_OF:
+        return getattr(import_module(_MODULE_OF[name]), name)
+    raise AttributeError(f"module 'tactr' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])
