@@ -139,12 +139,7 @@ tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const V
     settings.tolerance = tolerance;
     settings.residual_tolerance = residual_tolerance;
     settings.fixed_steps = steps;
-    tactr::Solver solver(view, actuation, settings);
-    if (guess) {
-        solver.solve_from(*guess, solution);
-    } else {
-        solver.solve_cold(solution);
-    }
+    tactr::solve(view, actuation, settings, guess, solution);
     return solution;
 }
 
@@ -243,6 +238,7 @@ NB_MODULE(_core, m) {
         .def_ro("section_residual", &tactr::Solution::section_residual)
         .def_ro("discretisation_error", &tactr::Solution::discretisation_error)
         .def_ro("least_stretch", &tactr::Solution::least_stretch)
+        .def_ro("shortest_tendon", &tactr::Solution::shortest_tendon)
         .def_ro("base_determinant", &tactr::Solution::base_determinant)
         .def_ro("used_continuation", &tactr::Solution::used_continuation)
         .def_prop_ro("steps", [](const tactr::Solution& s) { return s.mesh.steps; })

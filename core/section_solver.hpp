@@ -23,6 +23,7 @@ class SectionSolver {
     bool strict = true;  // false: on the way to a strict march, sections may be solved roughly
     double worst_residual = 0.0;
     double least_stretch = 1.0;
+    double shortest_tendon = 1.0;  // least |q| of a pulled tendon where a section had no equilibrium: 0 at a kink
 
     // The section at the last solve, by position among the tubes present.
     StrainsOf<T> strains;
@@ -41,7 +42,10 @@ class SectionSolver {
     bool solve(const Section<P>& section, const P& s, const T* z, const Packing& packing, Strains& e) {
         place_tendons(section, s);
         for (int a = 0; a < section.active_count; ++a) sine_cosine(z[3 * a], sine[a], cosine[a]);
-        if (!find_strains(section, z, packing, e)) return false;
+        if (!find_strains(section, z, packing, e)) {
+            note_failure(section);
+            return false;
+        }
         for (int a = 0; a < section.active_count; ++a)
             if (1.0 + e.eta[a] < least_stretch) least_stretch = 1.0 + e.eta[a];
         carry(section, z, packing, e);
@@ -76,6 +80,11 @@ class SectionSolver {
             }
             state.slot = hosted.slot;
         }
+    }
+
+    void note_failure(const Section<P>& section) {
+        for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h)
+            if (value(tendons[h].tension) > 0.0) shortest_tendon = smaller(shortest_tendon, tendon_tangents[h].speed);
     }
 
     static TendonState<double> plain(const TendonState<P>& t) {

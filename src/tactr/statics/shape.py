@@ -210,7 +210,7 @@ class Shape:
 
     def _require_convergence(self) -> None:
         if not self.converged:
-            raise NotConverged(self.message)
+            raise NotConverged(self.message, shape=self)
 
     @cached_property
     def _frames(self) -> np.ndarray:

@@ -12,17 +12,28 @@ class Status(str, Enum):
 
     CONVERGED = "converged"
     NO_SECTION_EQUILIBRIUM = "no section equilibrium"
+    KINKED = "kinked"
     STALLED = "stalled"
     TOO_COARSE = "too coarse"
     COLLAPSED = "collapsed"
 
 
-_BY_CODE = tuple(Status)
+_BY_CODE = (
+    Status.CONVERGED,
+    Status.NO_SECTION_EQUILIBRIUM,
+    Status.STALLED,
+    Status.TOO_COARSE,
+    Status.COLLAPSED,
+)
+KINK = 0.1  # length of a pulled tendon per length of tube, below which the tube is bent round the tendon
 
 
 def status_of(solution: _core.Solution) -> Status:
     """The kernel's status code as a Status."""
-    return _BY_CODE[solution.status]
+    status = _BY_CODE[solution.status]
+    if status is Status.NO_SECTION_EQUILIBRIUM and solution.shortest_tendon < KINK:
+        return Status.KINKED
+    return status
 
 
 def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
@@ -39,6 +50,11 @@ _FAILURES = {
     Status.NO_SECTION_EQUILIBRIUM: (
         "no equilibrium was found: a cross-section has none under this load. The load or a tension is far beyond "
         "what the tubes can carry; check its unit and size, and the tubes' stiffness."
+    ),
+    Status.KINKED: (
+        "no equilibrium was found: a tendon bends its tubes to a radius as small as its own offset from the axis, where "
+        "its path has no length left (disks would touch). Lower that tension, stiffen the tubes that carry it, bring "
+        "the tendon nearer to the axis, or check the units of tension, E and diameters."
     ),
     Status.STALLED: (
         "no equilibrium was found: the base is still missed by {s.base_residual:.1e} rad after {s.iterations} "

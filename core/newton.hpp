@@ -1,0 +1,257 @@
+// Finds the free-end unknowns that meet the base: Newton with exact derivatives.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dense.hpp"
+#include "free_end.hpp"
+#include "march.hpp"
+#include "solution.hpp"
+
+namespace tactr {
+
+/// Newton on the base residual, on a mesh of steps that keeps the discretisation error below tolerance.
+class NewtonSolver {
+  public:
+    Actuation<double> actuation;
+    const Robot& robot;
+    const Settings settings;
+    const Layout<double> layout;
+    const Shooting shooting;
+    double residual[MAX_UNKNOWNS];  // at the last evaluation; its derivatives are in the solution
+
+    NewtonSolver(const Robot& robot_, const Actuation<double>& actuation_, const Settings& settings_)
+        : actuation(actuation_), robot(robot_), settings(settings_),
+          layout(cut_into_sections(robot_, actuation_.translation)), shooting(robot_, layout) {}
+
+    void start_straight(Solution& solution) const {
+        for (int i = 0; i < robot.tube_count; ++i) solution.free_end.psi[i] = actuation.rotation[i];
+        for (int c = 0; c < 4; ++c) solution.free_end.quaternion[c] = c == 0;
+        solution.mesh.steps.assign(layout.sections.size(), 1);
+    }
+
+    /// Takes over a neighbour's free end, mesh and derivatives.
+    void start_from(const Solution& guess, Solution& solution) {
+        solution.free_end = guess.free_end;
+        solution.mesh = guess.mesh;
+        if (solution.mesh.steps.size() != layout.sections.size()) solution.mesh.steps.assign(layout.sections.size(), 1);
+        if (solution.mesh.strains.size() != static_cast<size_t>(solution.mesh.total()) * dp8::STAGES) solution.mesh.fit();
+        marched_ = guess.free_end;
+        std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
+        if (shooting.unknowns > 0 && guess.status == Status::converged) chord_step(solution);
+    }
+
+    /// One plain march chooses the steps; with loads in world axes it also turns the unloaded robot's base upright.
+    void choose_mesh(Solution& solution, bool unloaded) {
+        Actuation<double> here = actuation;
+        if (unloaded) here.load_scale = 0.0;
+        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        March<double, double> march(robot, layout, here, shooting.full_options());
+        shooting.scale(march);
+        march.error_weight = shooting.error_weight;
+        march.adapt_tolerance = MESH_SLACK * (settings.fixed_steps > 0 ? 1e300 : settings.tolerance);
+        const bool found = march.run(solution.free_end, solution.mesh);
+        if (found && unloaded) shooting.upright(march.base, actuation.rotation[0], solution.free_end);
+        solution.mesh.fit();
+    }
+
+    /// One march with derivatives at the given free end. full: with path and error estimate. strict: every section to
+    /// its tolerance.
+    bool evaluate(Solution& solution, bool full, bool strict) {
+        ++solution.iterations;
+        full_ = full;
+        strict_ = strict;
+        return with_lanes(shooting.unknowns + (full ? 1 : 0), [&](auto lanes) { return evaluate_lanes<decltype(lanes)::value>(solution, full, strict); });
+    }
+
+    /// Newton with backtracking on the largest residual. True: below tolerance, with path and error estimate read.
+    bool newton(Solution& solution, double tolerance, bool full_at_end) {
+        const bool at_once = full_at_end && shooting.unknowns == 0;
+        if (!evaluate(solution, at_once, at_once)) return fail(solution, Status::no_equilibrium);
+        for (int iteration = 0; iteration < settings.max_iterations; ++iteration) {
+            const double size = solution.base_residual;
+            if (size <= tolerance) {
+                if (!full_at_end || (full_ && strict_)) return true;
+                if (!evaluate(solution, true, true)) return fail(solution, Status::no_equilibrium);
+                continue;
+            }
+            if (solution.iterations > settings.max_passes) break;
+            double A[MAX_UNKNOWNS][MAX_UNKNOWNS], step[MAX_UNKNOWNS];
+            for (int i = 0; i < shooting.unknowns; ++i) {
+                step[i] = -residual[i];
+                for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
+            }
+            if (solve_dense(shooting.unknowns, A, step) == 0.0) break;
+            if (!backtrack(solution, step, size, full_at_end)) break;
+        }
+        return fail(solution, Status::stalled);
+    }
+
+    /// Newton, then finer steps until the discretisation error is below tolerance.
+    bool polish(Solution& solution) {
+        for (int round = 0; round < 8; ++round) {
+            if (!newton(solution, settings.residual_tolerance, true)) return false;
+            if (solution.discretisation_error <= settings.tolerance || settings.fixed_steps > 0) {
+                if (solution.least_stretch < LEAST_STRETCH) return fail(solution, Status::collapsed);
+                solution.status = Status::converged;
+                return true;
+            }
+            if (!refine(solution)) break;
+        }
+        return fail(solution, Status::too_coarse);
+    }
+
+    /// The base residual at a free end, without derivatives.
+    bool plain_residual(const FreeEnd<double>& end, Mesh mesh, double* r) const {
+        March<double, double> march(robot, layout, actuation, shooting.newton_options());
+        shooting.scale(march);
+        if (!march.run(end, mesh)) return false;
+        shooting.residual(march.base, actuation.rotation, r);
+        return std::isfinite(norm(r));
+    }
+
+    double norm(const double* r) const {
+        double worst = 0.0;
+        for (int i = 0; i < shooting.unknowns; ++i) worst = larger(worst, std::fabs(r[i]));
+        return worst;
+    }
+
+    static bool fail(Solution& solution, Status status) {
+        solution.status = status;
+        return false;
+    }
+
+  private:
+    FreeEnd<double> marched_;  // free end of the last march that filled the mesh
+    bool full_ = false, strict_ = false;  // how the last march was made
+
+    static constexpr double MESH_SLACK = 5.0;  // the sum over a section's states overrates its effect on the tip
+
+    static constexpr double LEAST_STRETCH = 0.2;  // linear elasticity means nothing at such compression
+
+    void tell_shift(Solution& solution) {
+        shooting.difference(marched_, solution.free_end, solution.mesh.shift);
+        marched_ = solution.free_end;
+    }
+
+    /// A step with the neighbour's derivatives: one march without any.
+    void chord_step(Solution& solution) {
+        March<double, double> march(robot, layout, actuation, shooting.newton_options());
+        shooting.scale(march);
+        march.solver.strict = false;
+        const FreeEnd<double> from = solution.free_end;
+        tell_shift(solution);
+        if (!march.run(from, solution.mesh)) return;
+        double A[MAX_UNKNOWNS][MAX_UNKNOWNS], step[MAX_UNKNOWNS];
+        shooting.residual(march.base, actuation.rotation, step);
+        for (int i = 0; i < shooting.unknowns; ++i)
+            for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
+        if (solve_dense(shooting.unknowns, A, step) == 0.0) return;
+        const double longest = norm(step);
+        if (longest < LONGEST_CHORD) shooting.move(from, step, -1.0, solution.free_end);
+    }
+
+    static constexpr double LONGEST_CHORD = 0.5;  // rad
+
+    template <int K>
+    bool evaluate_lanes(Solution& solution, bool full, bool strict) {
+        using T = Dual<K>;
+        const MarchOptions options = full ? shooting.full_options() : shooting.newton_options();
+        March<T, double> march(robot, layout, actuation, options);
+        shooting.scale(march);
+        FreeEnd<T> end;
+        shooting.seed(solution.free_end, 0, end);
+        if (full) {
+            march.error_weight = shooting.error_weight;
+            march.error_lane = shooting.unknowns;
+        }
+        march.solver.strict = strict;
+        march.slope_lanes = shooting.unknowns;
+        tell_shift(solution);
+        if (!march.run(end, solution.mesh)) {
+            solution.shortest_tendon = march.solver.shortest_tendon;
+            return false;
+        }
+        T r[MAX_UNKNOWNS];
+        shooting.residual(march.base, actuation.rotation, r);
+        for (int i = 0; i < shooting.unknowns; ++i) {
+            residual[i] = r[i].v;
+            if (!std::isfinite(r[i].v)) return false;
+            for (int j = 0; j < shooting.unknowns; ++j) {
+                solution.jacobian[i][j] = r[i].d[j];
+                if (!std::isfinite(r[i].d[j])) return false;
+            }
+        }
+        solution.base_residual = norm(residual);
+        solution.section_residual = march.solver.worst_residual;
+        solution.least_stretch = march.solver.least_stretch;
+        if (full) read_tip(solution, march, end, r);
+        return true;
+    }
+
+    template <class M, class T>
+    void read_tip(Solution& solution, const M& march, const FreeEnd<T>& end, const T* r) {
+        T position[3], quaternion[4];
+        shooting.tip_pose(end, march.base, actuation.rotation[0], position, quaternion);
+        const int e = shooting.unknowns;
+        double A[MAX_UNKNOWNS][MAX_UNKNOWNS], shift[MAX_UNKNOWNS];
+        for (int i = 0; i < e; ++i) {
+            shift[i] = r[i].d[e];
+            for (int j = 0; j < e; ++j) A[i][j] = solution.jacobian[i][j];
+        }
+        solution.base_determinant = solve_dense(e, A, shift);
+        double error = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            double d = position[a].d[e];
+            for (int j = 0; j < e; ++j) d -= position[a].d[j] * shift[j];
+            error += d * d;
+            solution.tip_position[a] = position[a].v;
+        }
+        for (int a = 0; a < 4; ++a) solution.tip_quaternion[a] = quaternion[a].v;
+        solution.discretisation_error = ERROR_SAFETY * std::sqrt(error);
+        section_error_ = march.section_error;
+        solution.tendon_length = march.tendon_length;
+    }
+
+    static constexpr double ERROR_SAFETY = 2.0;  // the embedded estimate, carried to the tip, underrates the coarsest meshes
+
+    std::vector<double> section_error_;
+
+    bool backtrack(Solution& solution, double* step, double size, bool full_at_end) {
+        constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
+        const FreeEnd<double> from = solution.free_end;
+        const double longest = norm(step);
+        double fraction = longest > LONGEST ? LONGEST / longest : 1.0;
+        for (int attempt = 0; attempt < 10; ++attempt, fraction *= 0.4) {
+            shooting.move(from, step, fraction, solution.free_end);
+            const bool near = full_at_end && size < 1e-4 && fraction == 1.0;  // Newton squares it: the last march
+            if (evaluate(solution, near, near) && (solution.base_residual < (1.0 - 0.1 * fraction) * size)) return true;
+            // at the rounding floor no further decrease can be asked for
+            if (size < 10.0 * settings.residual_tolerance && solution.base_residual <= settings.residual_tolerance) return true;
+        }
+        solution.free_end = from;
+        return false;
+    }
+
+    /// More steps where the error comes from, as many as an eighth-order rule needs to bring the tip below tolerance.
+    bool refine(Solution& solution) {
+        double largest = 0.0;
+        for (double error : section_error_) largest = larger(largest, error);
+        const double ratio = solution.discretisation_error / (0.5 * settings.tolerance);
+        bool finer = false;
+        for (size_t k = 0; k < section_error_.size(); ++k) {
+            const double excess = ratio * section_error_[k] / largest;
+            if (!(excess > 0.5)) continue;
+            const double factor = smaller(3.0, std::pow(excess, 0.125));
+            const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
+            const int steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(factor * now))));
+            finer = finer || steps > now;
+            solution.mesh.steps[k] = steps;
+        }
+        solution.mesh.fit();
+        return finer;
+    }
+};
+
+}  // namespace tactr

@@ -1,0 +1,37 @@
+// What a solve is asked and what it returns.
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "states.hpp"
+
+namespace tactr {
+
+enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse = 3, collapsed = 4 };
+
+struct Settings {
+    double tolerance = 1e-6;           // discretisation error at the tip, m
+    double residual_tolerance = 1e-9;  // rad at the base
+    int fixed_steps = 0;               // > 0: steps in every section, without error control
+    int max_iterations = 60;           // of one Newton run
+    int max_passes = 3000;             // of the whole solve
+};
+
+struct Solution {
+    Status status = Status::stalled;
+    int iterations = 0;  // marches with derivatives
+    double base_residual = std::numeric_limits<double>::max();
+    double section_residual = std::numeric_limits<double>::max();
+    double discretisation_error = std::numeric_limits<double>::max();
+    double least_stretch = 1.0;
+    double shortest_tendon = 1.0;  // |q| where a section had no equilibrium; near 0: a tendon at the centre of curvature
+    double base_determinant = 0.0;  // of d(base)/d(free end)
+    bool used_continuation = false;
+    double jacobian[MAX_UNKNOWNS][MAX_UNKNOWNS];  // d(base)/d(free end), last computed
+    FreeEnd<double> free_end;
+    Mesh mesh;
+    std::vector<double> tension, rotation, translation, tendon_length;
+    double tip_position[3] = {}, tip_quaternion[4] = {1, 0, 0, 0};
+};
+
+}  // namespace tactr
