@@ -22,6 +22,7 @@ class Continuation {
         here_ = solution_.free_end;
         t_ = 0.0;
         for (int i = 0; i <= n_; ++i) tangent_[i] = i == n_;
+        newton_.choose_mesh(solution_);  // for the full scale: steps that change along the curve would bend it
         double step = FIRST_STEP;
         bool found = linearise(here_, t_) && find_tangent();
         while (found && step > LEAST_STEP && solution_.iterations < newton_.settings.max_passes) {
@@ -110,7 +111,7 @@ class Continuation {
         double t = t_ + step * tangent_[n_];
         scale(t);
         solution_.free_end = end;
-        newton_.choose_mesh(solution_, false);
+        newton_.add_steps(solution_);
         if (!correct(step, end, t) || !find_tangent()) return reset(from_tangent);
         double cosine = 0.0;
         for (int i = 0; i <= n_; ++i) cosine += tangent_[i] * from_tangent[i];
@@ -170,7 +171,7 @@ class Continuation {
         newton_.shooting.move(previous_, step, part, solution_.free_end);
         newton_.actuation = target_;
         const FreeEnd<double> expected = solution_.free_end;
-        newton_.choose_mesh(solution_, false);
+        newton_.add_steps(solution_);
         return newton_.newton(solution_, ON_CURVE, false) &&
                newton_.shooting.distance(expected, solution_.free_end) < 2.0 * newton_.norm(step) + 1e-3;
     }

@@ -29,6 +29,7 @@ class NewtonSolver {
         for (int i = 0; i < robot.tube_count; ++i) solution.free_end.psi[i] = actuation.rotation[i];
         for (int c = 0; c < 4; ++c) solution.free_end.quaternion[c] = c == 0;
         solution.mesh.steps.assign(layout.sections.size(), 1);
+        solution.mesh.fit();
     }
 
     /// Takes over a neighbour's free end, mesh and derivatives.
@@ -42,18 +43,25 @@ class NewtonSolver {
         if (shooting.unknowns > 0 && guess.status == Status::converged) chord_step(solution);
     }
 
-    /// One plain march chooses the steps; with loads in world axes it also turns the unloaded robot's base upright.
-    void choose_mesh(Solution& solution, bool unloaded) {
-        Actuation<double> here = actuation;
-        if (unloaded) here.load_scale = 0.0;
+    /// One plain march chooses the steps, starting from one a section.
+    void choose_mesh(Solution& solution) {
         solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
-        March<double, double> march(robot, layout, here, shooting.full_options());
-        shooting.scale(march);
-        march.error_weight = shooting.error_weight;
-        march.adapt_tolerance = MESH_SLACK * (settings.fixed_steps > 0 ? 1e300 : settings.tolerance);
-        const bool found = march.run(solution.free_end, solution.mesh);
-        if (found && unloaded) shooting.upright(march.base, actuation.rotation[0], solution.free_end);
-        solution.mesh.fit();
+        add_steps(solution);
+    }
+
+    /// One plain march adds steps to the mesh where its error asks for them.
+    void add_steps(Solution& solution) {
+        BaseState<double> base;
+        plain_march(solution, actuation, base);
+    }
+
+    /// As choose_mesh, but without external loads; turns the tip so that the unloaded robot's base stands upright.
+    void stand_up(Solution& solution) {
+        Actuation<double> unloaded = actuation;
+        unloaded.load_scale = 0.0;
+        BaseState<double> base;
+        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        if (plain_march(solution, unloaded, base)) shooting.upright(base, actuation.rotation[0], solution.free_end);
     }
 
     /// One march with derivatives at the given free end. full: with path and error estimate. strict: every section to
@@ -129,6 +137,17 @@ class NewtonSolver {
     static constexpr double MESH_SLACK = 5.0;  // the sum over a section's states overrates its effect on the tip
 
     static constexpr double LEAST_STRETCH = 0.2;  // linear elasticity means nothing at such compression
+
+    bool plain_march(Solution& solution, const Actuation<double>& at, BaseState<double>& base) {
+        March<double, double> march(robot, layout, at, shooting.full_options());
+        shooting.scale(march);
+        march.error_weight = shooting.error_weight;
+        march.adapt_tolerance = MESH_SLACK * (settings.fixed_steps > 0 ? 1e300 : settings.tolerance);
+        const bool found = march.run(solution.free_end, solution.mesh);
+        solution.mesh.fit();
+        base = march.base;
+        return found;
+    }
 
     void tell_shift(Solution& solution) {
         shooting.difference(marched_, solution.free_end, solution.mesh.shift);

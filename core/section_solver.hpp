@@ -168,7 +168,7 @@ class SectionSolver {
             if (LANES == 0 && !strict && worst < CLOSE_ENOUGH) return true;
             if (worst <= SECTION_TOLERANCE) {
                 worst_residual = larger(worst_residual, worst);
-                return LANES == 0 || factor_tangent(section, e);
+                return finish(section, total, tube, e);
             }
             if (!(worst < last)) {
                 if (fraction < 1e-3) return false;
@@ -176,13 +176,10 @@ class SectionSolver {
                 move_strains(section, from, step, fraction, e);
                 continue;
             }
+            if (!strict && worst < LINEAR_ENOUGH) return finish(section, total, tube, e);
             if (!factor_tangent(section, e)) return false;
             factor_.template solve<1>(total, tube);
             if (section.guided) total[0][0] = total[1][0] = total[2][0] = total[3][0] = 0.0;
-            if (!strict && worst < LINEAR_ENOUGH) {
-                step_linearly(section, total, tube, e);
-                return true;
-            }
             from = e;
             step.kx = total[0][0];
             step.ky = total[1][0];
@@ -197,6 +194,15 @@ class SectionSolver {
             move_strains(section, from, step, fraction, e);
         }
         return false;
+    }
+
+    /// Ends on a linear step: it squares a residual that is small already, and keeps the march smooth in its unknowns.
+    bool finish(const Section<P>& section, double total[4][1], double tube[MAX_TUBES][2][1], Strains& e) {
+        if (!factor_tangent(section, e)) return false;
+        factor_.template solve<1>(total, tube);
+        if (section.guided) total[0][0] = total[1][0] = total[2][0] = total[3][0] = 0.0;
+        step_linearly(section, total, tube, e);
+        return true;
     }
 
     static void move_strains(const Section<P>& section, const Strains& from, const Strains& step, double f, Strains& e) {

@@ -8,12 +8,16 @@ namespace tactr {
 
 inline void solve_cold(NewtonSolver& newton, Solution& solution) {
     newton.start_straight(solution);
-    newton.choose_mesh(solution, newton.shooting.world);
+    if (newton.shooting.world) {
+        newton.stand_up(solution);
+    } else {
+        newton.choose_mesh(solution);
+    }
     if (newton.polish(solution)) return;
     solution.used_continuation = true;
     Continuation continuation(newton, solution);
     if (continuation.reach()) {
-        newton.choose_mesh(solution, false);
+        newton.choose_mesh(solution);
         newton.polish(solution);
     } else {
         newton.start_straight(solution);
