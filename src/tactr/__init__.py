@@ -32,7 +32,7 @@ if TYPE_CHECKING:
         TensionProfile,
         Tube,
     )
-    from tactr.statics import Prepared, Shape, Status, TendonShape, TubeShape, solve
+    from tactr.statics import Prepared, Shape, Status, TendonShape, TipJacobian, TubeShape, solve
 
 _HOME = {
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
@@ -57,7 +57,7 @@ _HOME = {
         "TensionProfile",
         "Tube",
     ),
-    "tactr.statics": ("Prepared", "Shape", "Status", "TendonShape", "TubeShape", "solve"),
+    "tactr.statics": ("Prepared", "Shape", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 _SUBMODULES = ("materials", "reference")
@@ -90,6 +90,7 @@ __all__ = [
     "Tendon",
     "TendonShape",
     "TensionProfile",
+    "TipJacobian",
     "Tube",
     "TubeShape",
     "load",

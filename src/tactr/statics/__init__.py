@@ -1,7 +1,7 @@
 """Statics: from a robot and its actuation to its shape, over the C++ kernel."""
 
-from tactr.statics.shape import Shape, TendonShape, TubeShape
+from tactr.statics.shape import Shape, TendonShape, TipJacobian, TubeShape
 from tactr.statics.solve import Prepared, solve
 from tactr.statics.status import Status
 
-__all__ = ["Prepared", "Shape", "Status", "TendonShape", "TubeShape", "solve"]
+__all__ = ["Prepared", "Shape", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"]

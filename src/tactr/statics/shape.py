@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
 from tactr.statics.frames import rotation_matrices, turned_about_z
+from tactr.statics.stations import Stations, station_places
 from tactr.statics.status import Status, explain, status_of
 
 if TYPE_CHECKING:
@@ -64,6 +64,17 @@ class TendonShape:
         return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm>"
 
 
+class TipJacobian(NamedTuple):
+    """Derivatives of the tip: rows are its position (m), then its small rotation (rad), both in world axes.
+
+    tension (6, tendons), per N; rotation (6, tubes), per rad. A tendon with a TensionProfile counts per unit of a
+    factor on the whole profile.
+    """
+
+    tension: np.ndarray
+    rotation: np.ndarray
+
+
 class Shape:
     """The shape of a robot under given actuation, or why there is none.
 
@@ -73,20 +84,27 @@ class Shape:
 
     def __init__(
         self,
-        robot: Robot,
         prepared: _core.PreparedRobot,
         solution: _core.Solution,
         *,
+        base: Robot,
+        actuation: dict[str, np.ndarray],
         tolerance: float,
-        stations: np.ndarray,
+        stations: Stations,
         solve_time: float,
     ) -> None:
-        self.robot = robot
         self.tolerance = tolerance
         self.solve_time = solve_time
         self._prepared = prepared
         self._solution = solution
+        self._base = base
+        self._actuation = actuation
         self._stations = stations
+
+    @cached_property
+    def robot(self) -> Robot:
+        """The robot at the actuation that was solved."""
+        return self._base.with_actuation(**self._actuation) if self._actuation else self._base
 
     @property
     def status(self) -> Status:
@@ -135,10 +153,16 @@ class Shape:
         """The same as a rotation matrix, (3, 3)."""
         return rotation_matrices(self.tip_quaternion)
 
-    @property
+    def tip_jacobian(self) -> TipJacobian:
+        """Exact derivatives of the tip pose with respect to tensions and rotations."""
+        self._require_convergence()
+        columns = _core.tip_jacobian(self._prepared, self._solution)
+        return TipJacobian(*np.split(columns, [len(self._base.tendons)], axis=1))
+
+    @cached_property
     def s(self) -> np.ndarray:
         """Arc length of the stations from the guide's exit, (k,), m."""
-        return self._stations
+        return station_places(self.robot, self._stations)
 
     @property
     def centreline(self) -> np.ndarray:
@@ -168,12 +192,17 @@ class Shape:
         tips = sorted({tube.tip for tube in self.robot.tubes})[:-1]
         return self.sample(tips).centreline, np.array(tips)
 
-    def sample(self, stations: Sequence[float] | np.ndarray) -> Shape:
+    def sample(self, stations: Stations) -> Shape:
         """The same shape at other stations, ascending, m in [0, length]."""
         self._require_convergence()
-        s = np.ascontiguousarray(stations, dtype=float)
         return Shape(
-            self.robot, self._prepared, self._solution, tolerance=self.tolerance, stations=s, solve_time=self.solve_time
+            self._prepared,
+            self._solution,
+            base=self._base,
+            actuation=self._actuation,
+            tolerance=self.tolerance,
+            stations=station_places(self.robot, stations),
+            solve_time=self.solve_time,
         )
 
     def plot(self, path: str | Path | None = None) -> Figure:
@@ -206,7 +235,7 @@ class Shape:
     @cached_property
     def _samples(self) -> dict[str, Any]:
         self._require_convergence()
-        return _core.sample(self._prepared, self._solution, self._stations)
+        return _core.sample(self._prepared, self._solution, self.s)
 
     def _require_convergence(self) -> None:
         if not self.converged:

@@ -10,11 +10,12 @@ import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
-from tactr.robot import Robot
+from tactr.robot import Robot, Tendon, TensionProfile
 from tactr.robot.load import Load
 from tactr.robot.robot import Numbers, Tensions
 from tactr.statics.assemble import assemble, base_tension
 from tactr.statics.shape import Shape
+from tactr.statics.stations import station_places
 
 RESIDUAL_TOLERANCE = 1e-9
 
@@ -47,7 +48,7 @@ def solve(
 class Prepared:
     """A robot made ready to be solved many times, as in a control loop; only its actuation changes.
 
-    tolerance and stations as in ``solve``.
+    tolerance and stations as in ``solve``. Arrays of floats for every tendon or tube are the fastest actuation.
     """
 
     def __init__(
@@ -56,10 +57,17 @@ class Prepared:
         self.robot = robot
         self.tolerance = _positive("tolerance", tolerance)
         self._core = assemble(robot)
-        self._stations = stations
-        self._tension = np.array([base_tension(t) for t in robot.tendons], dtype=float)
-        self._rotation = np.array([t.rotation for t in robot.tubes], dtype=float)
-        self._translation = np.array([t.translation for t in robot.tubes], dtype=float)
+        self._given_stations = stations
+        self._stations = station_places(robot, stations)
+        self._tension = _tensions(robot)
+        self._rotation = _rotations(robot)
+        self._translation = _translations(robot)
+        profiled = [isinstance(tendon.tension, TensionProfile) for tendon in robot.tendons]
+        self._least_tension = np.where(profiled, np.inf, 0.0)  # a profile is not replaced by a number unseen
+        self._least_translation = np.nextafter([-tube.length for tube in robot.tubes], 0.0)
+
+    def __repr__(self) -> str:
+        return f"<Prepared {self.robot!r}, tolerance {self.tolerance:.1e} m>"
 
     def solve(
         self,
@@ -70,46 +78,71 @@ class Prepared:
         guess: Shape | None = None,
     ) -> Shape:
         """As ``tactr.solve``, for this robot."""
-        robot = self.robot
-        if tension is not None or rotation is not None or translation is not None:
-            robot = robot.with_actuation(tension=tension, rotation=rotation, translation=translation)
-        tensions, rotations, translations = self._tension, self._rotation, self._translation
-        if tension is not None:
-            tensions = np.array([base_tension(t) for t in robot.tendons], dtype=float)
-        if rotation is not None:
-            rotations = np.array([t.rotation for t in robot.tubes], dtype=float)
-        if translation is not None:
-            translations = np.array([t.translation for t in robot.tubes], dtype=float)
+        plain = (
+            self._is_plain(tension, self._tension, self._least_tension, np.inf)
+            and self._is_plain(rotation, self._rotation, -np.inf, np.inf)
+            and self._is_plain(translation, self._translation, self._least_translation, 0.0)
+        )
+        given = {"tension": tension, "rotation": rotation, "translation": translation}
+        if not plain:
+            robot = self.robot.with_actuation(**given)
+            if any(map(_differs_in_profile, self.robot.tendons, robot.tendons)):
+                other = Prepared(robot, tolerance=self.tolerance, stations=self._given_stations)
+                return other.solve(guess=guess)
+            given = {"tension": _tensions(robot), "rotation": _rotations(robot), "translation": _translations(robot)}
+        own = {"tension": self._tension, "rotation": self._rotation, "translation": self._translation}
+        arrays = {name: own[name] if array is None else np.array(array) for name, array in given.items()}
         start = perf_counter()
         solution = _core.solve(
-            self._core, tensions, rotations, translations, self.tolerance, RESIDUAL_TOLERANCE, _start(guess)
+            self._core,
+            arrays["tension"],
+            arrays["rotation"],
+            arrays["translation"],
+            self.tolerance,
+            RESIDUAL_TOLERANCE,
+            _start(guess),
         )
+        elapsed = perf_counter() - start
+        moved = arrays["translation"] is not self._translation
         return Shape(
-            robot,
             self._core,
             solution,
+            base=self.robot,
+            actuation={name: array for name, array in arrays.items() if array is not own[name]},
             tolerance=self.tolerance,
-            stations=_stations(robot, self._stations),
-            solve_time=perf_counter() - start,
+            stations=self._given_stations if moved else self._stations,
+            solve_time=elapsed,
         )
+
+    @staticmethod
+    def _is_plain(given: object, own: np.ndarray, above: float | np.ndarray, most: float) -> bool:
+        """Whether an actuation is absent or an array that needs no closer look: as many floats, all in bounds."""
+        if given is None:
+            return True
+        if not (isinstance(given, np.ndarray) and given.dtype == np.float64 and given.shape == own.shape):
+            return False
+        return bool(((given >= above) & (given <= most) & np.isfinite(given)).all())
 
 
 def _start(guess: Shape | None) -> _core.Solution | None:
     return guess._solution if guess is not None and guess.converged else None
 
 
-def _stations(robot: Robot, stations: int | Sequence[float] | np.ndarray) -> np.ndarray:
-    length = max(tube.tip for tube in robot.tubes)
-    if isinstance(stations, int):
-        if stations < 2:
-            raise RobotError("stations", f"{stations} stations", "at least 2", value=stations)
-        return np.linspace(0.0, length, stations)
-    s = np.ascontiguousarray(stations, dtype=float)
-    if s.ndim != 1 or len(s) == 0 or not np.all(np.isfinite(s)) or np.any(np.diff(s) < 0) or s[0] < 0 or s[-1] > length:
-        raise RobotError(
-            "stations", f"{stations!r}", f"arc lengths in m, ascending, within [0, {length:.6g}]", value=stations
-        )
-    return s
+def _tensions(robot: Robot) -> np.ndarray:
+    return np.array([base_tension(tendon) for tendon in robot.tendons], dtype=float)
+
+
+def _rotations(robot: Robot) -> np.ndarray:
+    return np.array([tube.rotation for tube in robot.tubes], dtype=float)
+
+
+def _translations(robot: Robot) -> np.ndarray:
+    return np.array([tube.translation for tube in robot.tubes], dtype=float)
+
+
+def _differs_in_profile(own: Tendon, other: Tendon) -> bool:
+    profiled = isinstance(own.tension, TensionProfile) or isinstance(other.tension, TensionProfile)
+    return profiled and own.tension != other.tension
 
 
 def _positive(field: str, number: float) -> float:
