@@ -40,7 +40,7 @@ class NewtonSolver {
         if (solution.mesh.strains.size() != static_cast<size_t>(solution.mesh.total()) * dp8::STAGES) solution.mesh.fit();
         marched_ = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
-        if (shooting.unknowns > 0 && guess.status == Status::converged) chord_step(solution);
+        if (shooting.unknowns > 0 && guess.status == Status::converged) chord_step(guess, solution);
     }
 
     /// One plain march chooses the steps, starting from one a section.
@@ -53,6 +53,16 @@ class NewtonSolver {
     void add_steps(Solution& solution) {
         BaseState<double> base;
         plain_march(solution, actuation, base);
+    }
+
+    /// As choose_mesh; then moves the free end by the angles at which that march missed the base.
+    void choose_mesh_and_wind(Solution& solution) {
+        BaseState<double> base;
+        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        if (!plain_march(solution, actuation, base)) return;
+        double missed[MAX_UNKNOWNS];
+        shooting.residual(base, actuation.rotation, missed);
+        if (norm(missed) < LONGEST_CHORD) shooting.move(FreeEnd<double>(solution.free_end), missed, -1.0, solution.free_end);
     }
 
     /// As choose_mesh, but without external loads; turns the tip so that the unloaded robot's base stands upright.
@@ -154,24 +164,35 @@ class NewtonSolver {
         marched_ = solution.free_end;
     }
 
-    /// A step with the neighbour's derivatives: one march without any.
-    void chord_step(Solution& solution) {
+    /// Steps with the neighbour's derivatives: for the change of the rotations, which needs no march, then for what one
+    /// march without derivatives still misses.
+    void chord_step(const Solution& guess, Solution& solution) {
+        double turned[MAX_UNKNOWNS];
+        BaseState<double> met;  // the base the neighbour met: its own rotations, upright
+        for (int i = 0; i < robot.tube_count; ++i) met.psi[i] = guess.rotation[i];
+        for (int c = 0; c < 4; ++c) met.quaternion[c] = c == 0;
+        shooting.residual(met, actuation.rotation, turned);
+        step_with_neighbour(turned, solution);
+
         March<double, double> march(robot, layout, actuation, shooting.newton_options());
         shooting.scale(march);
         march.solver.strict = false;
-        const FreeEnd<double> from = solution.free_end;
         tell_shift(solution);
-        if (!march.run(from, solution.mesh)) return;
-        double A[MAX_UNKNOWNS][MAX_UNKNOWNS], step[MAX_UNKNOWNS];
-        shooting.residual(march.base, actuation.rotation, step);
-        for (int i = 0; i < shooting.unknowns; ++i)
-            for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
-        if (solve_dense(shooting.unknowns, A, step) == 0.0) return;
-        const double longest = norm(step);
-        if (longest < LONGEST_CHORD) shooting.move(from, step, -1.0, solution.free_end);
+        if (!march.run(solution.free_end, solution.mesh)) return;
+        double missed[MAX_UNKNOWNS];
+        shooting.residual(march.base, actuation.rotation, missed);
+        step_with_neighbour(missed, solution);
     }
 
-    static constexpr double LONGEST_CHORD = 0.5;  // rad
+    void step_with_neighbour(double (&missed)[MAX_UNKNOWNS], Solution& solution) const {
+        double A[MAX_UNKNOWNS][MAX_UNKNOWNS];
+        for (int i = 0; i < shooting.unknowns; ++i)
+            for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
+        if (solve_dense(shooting.unknowns, A, missed) == 0.0 || !(norm(missed) < LONGEST_CHORD)) return;
+        shooting.move(FreeEnd<double>(solution.free_end), missed, -1.0, solution.free_end);
+    }
+
+    static constexpr double LONGEST_CHORD = 1.0;  // rad: of a step without derivatives of its own
 
     template <int K>
     bool evaluate_lanes(Solution& solution, bool full, bool strict) {
@@ -244,7 +265,7 @@ class NewtonSolver {
         double fraction = longest > LONGEST ? LONGEST / longest : 1.0;
         for (int attempt = 0; attempt < 10; ++attempt, fraction *= 0.4) {
             shooting.move(from, step, fraction, solution.free_end);
-            const bool near = full_at_end && size < 1e-4 && fraction == 1.0;  // Newton squares it: the last march
+            const bool near = full_at_end && fraction == 1.0 && size * size < settings.residual_tolerance;  // Newton squares it
             if (evaluate(solution, near, near) && (solution.base_residual < (1.0 - 0.1 * fraction) * size)) return true;
             // at the rounding floor no further decrease can be asked for
             if (size < 10.0 * settings.residual_tolerance && solution.base_residual <= settings.residual_tolerance) return true;

@@ -11,7 +11,7 @@ inline void solve_cold(NewtonSolver& newton, Solution& solution) {
     if (newton.shooting.world) {
         newton.stand_up(solution);
     } else {
-        newton.choose_mesh(solution);
+        newton.choose_mesh_and_wind(solution);
     }
     if (newton.polish(solution)) return;
     solution.used_continuation = true;

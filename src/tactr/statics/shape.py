@@ -78,7 +78,8 @@ class TipJacobian(NamedTuple):
 class Shape:
     """The shape of a robot under given actuation, or why there is none.
 
-    Always readable: robot, status, converged, message, residual, iterations, discretisation_error, solve_time. The
+    Always readable: robot, status, converged, message, residual, residual_tolerance, iterations, discretisation_error,
+    tolerance, solve_time. The
     geometry raises NotConverged unless converged. World frame: z along the guide, which the robot leaves at s = 0.
     """
 
@@ -90,10 +91,12 @@ class Shape:
         base: Robot,
         actuation: dict[str, np.ndarray],
         tolerance: float,
+        residual_tolerance: float,
         stations: Stations,
         solve_time: float,
     ) -> None:
         self.tolerance = tolerance
+        self.residual_tolerance = residual_tolerance
         self.solve_time = solve_time
         self._prepared = prepared
         self._solution = solution
@@ -201,6 +204,7 @@ class Shape:
             base=self._base,
             actuation=self._actuation,
             tolerance=self.tolerance,
+            residual_tolerance=self.residual_tolerance,
             stations=station_places(self.robot, stations),
             solve_time=self.solve_time,
         )

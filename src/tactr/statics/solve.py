@@ -17,7 +17,8 @@ from tactr.statics.assemble import assemble, base_tension
 from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
 
-RESIDUAL_TOLERANCE = 1e-9
+RESIDUAL_SHARE = 0.05  # of the tolerance at the tip may come from the angle by which the base is missed
+LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e-11, 1e-6  # rad: rounding below, carelessness above
 
 
 def solve(
@@ -48,7 +49,8 @@ def solve(
 class Prepared:
     """A robot made ready to be solved many times, as in a control loop; only its actuation changes.
 
-    tolerance and stations as in ``solve``. Arrays of floats for every tendon or tube are the fastest actuation.
+    tolerance (m) and stations as in ``solve``; residual_tolerance (rad) follows: the angle by which the base may be
+    missed, a twentieth of the tolerance over the length of the longest tube. Arrays of floats for every tendon or tube are the fastest actuation.
     """
 
     def __init__(
@@ -56,6 +58,8 @@ class Prepared:
     ) -> None:
         self.robot = robot
         self.tolerance = _positive("tolerance", tolerance)
+        share = RESIDUAL_SHARE * self.tolerance / max(tube.length for tube in robot.tubes)
+        self.residual_tolerance = min(max(share, LEAST_RESIDUAL), LARGEST_RESIDUAL)
         self._core = assemble(robot)
         self._given_stations = stations
         self._stations = station_places(robot, stations)
@@ -99,7 +103,7 @@ class Prepared:
             arrays["rotation"],
             arrays["translation"],
             self.tolerance,
-            RESIDUAL_TOLERANCE,
+            self.residual_tolerance,
             _start(guess),
         )
         elapsed = perf_counter() - start
@@ -110,6 +114,7 @@ class Prepared:
             base=self.robot,
             actuation={name: array for name, array in arrays.items() if array is not own[name]},
             tolerance=self.tolerance,
+            residual_tolerance=self.residual_tolerance,
             stations=self._given_stations if moved else self._stations,
             solve_time=elapsed,
         )
