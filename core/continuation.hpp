@@ -25,7 +25,7 @@ class Continuation {
         newton_.choose_mesh(solution_);  // for the full scale: steps that change along the curve would bend it
         double step = FIRST_STEP;
         bool found = linearise(here_, t_) && find_tangent();
-        while (found && step > LEAST_STEP && solution_.iterations < newton_.settings.max_passes) {
+        while (found && step > LEAST_STEP && solution_.steps_marched < newton_.settings.max_steps) {
             if (!advance(step)) {
                 step *= 0.4;
                 continue;

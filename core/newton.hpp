@@ -32,15 +32,18 @@ class NewtonSolver {
         solution.mesh.fit();
     }
 
-    /// Takes over a neighbour's free end, mesh and derivatives.
-    void start_from(const Solution& guess, Solution& solution) {
+    /// Takes over a neighbour's free end, mesh and derivatives. False: it is no neighbour.
+    bool start_from(const Solution& guess, Solution& solution) {
+        const bool fits = guess.status == Status::converged && guess.mesh.unknowns == shooting.unknowns &&
+                          static_cast<int>(guess.rotation.size()) == robot.tube_count &&
+                          guess.mesh.steps.size() == layout.sections.size();
+        if (!fits) return false;
         solution.free_end = guess.free_end;
         solution.mesh = guess.mesh;
-        if (solution.mesh.steps.size() != layout.sections.size()) solution.mesh.steps.assign(layout.sections.size(), 1);
-        if (solution.mesh.strains.size() != static_cast<size_t>(solution.mesh.total()) * dp8::STAGES) solution.mesh.fit();
         marched_ = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
-        if (shooting.unknowns > 0 && guess.status == Status::converged) chord_step(guess, solution);
+        if (shooting.unknowns > 0) chord_step(guess, solution);
+        return true;
     }
 
     /// One plain march chooses the steps, starting from one a section.
@@ -78,6 +81,7 @@ class NewtonSolver {
     /// its tolerance.
     bool evaluate(Solution& solution, bool full, bool strict) {
         ++solution.iterations;
+        solution.steps_marched += solution.mesh.total();
         full_ = full;
         strict_ = strict;
         return with_lanes(shooting.unknowns + (full ? 1 : 0), [&](auto lanes) { return evaluate_lanes<decltype(lanes)::value>(solution, full, strict); });
@@ -94,7 +98,7 @@ class NewtonSolver {
                 if (!evaluate(solution, true, true)) return fail(solution, Status::no_equilibrium);
                 continue;
             }
-            if (solution.iterations > settings.max_passes) break;
+            if (solution.steps_marched > settings.max_steps) break;
             double A[MAX_UNKNOWNS][MAX_UNKNOWNS], step[MAX_UNKNOWNS];
             for (int i = 0; i < shooting.unknowns; ++i) {
                 step[i] = -residual[i];
@@ -260,13 +264,19 @@ class NewtonSolver {
 
     bool backtrack(Solution& solution, double* step, double size, bool full_at_end) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
+        constexpr double ROUGH = 1e-3;   // rad
         const FreeEnd<double> from = solution.free_end;
+        const bool strict_before = strict_;
         const double longest = norm(step);
         double fraction = longest > LONGEST ? LONGEST / longest : 1.0;
         for (int attempt = 0; attempt < 10; ++attempt, fraction *= 0.4) {
             shooting.move(from, step, fraction, solution.free_end);
-            const bool near = full_at_end && fraction == 1.0 && size * size < settings.residual_tolerance;  // Newton squares it
-            if (evaluate(solution, near, near) && (solution.base_residual < (1.0 - 0.1 * fraction) * size)) return true;
+            const bool near = fraction == 1.0 && size * size < settings.residual_tolerance;  // Newton squares it
+            const bool strict = near || strict_before;
+            if (!evaluate(solution, near && full_at_end, strict)) continue;
+            if (solution.base_residual < (1.0 - 0.1 * fraction) * size) return true;
+            // the residual before was only roughly known
+            if (strict && !strict_before && solution.base_residual < ROUGH) return true;
             // at the rounding floor no further decrease can be asked for
             if (size < 10.0 * settings.residual_tolerance && solution.base_residual <= settings.residual_tolerance) return true;
         }

@@ -14,12 +14,13 @@ struct Settings {
     double residual_tolerance = 1e-9;  // rad at the base
     int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
-    int max_passes = 3000;             // of the whole solve
+    long max_steps = 50000;            // of all marches with derivatives together: a second or so
 };
 
 struct Solution {
     Status status = Status::stalled;
     int iterations = 0;  // marches with derivatives
+    long steps_marched = 0;
     double base_residual = std::numeric_limits<double>::max();
     double section_residual = std::numeric_limits<double>::max();
     double discretisation_error = std::numeric_limits<double>::max();

@@ -20,8 +20,8 @@ inline void solve_cold(NewtonSolver& newton, Solution& solution) {
         newton.choose_mesh(solution);
         newton.polish(solution);
     } else {
-        newton.start_straight(solution);
-        newton.fail(solution, solution.status);
+        // a tendon at the centre of curvature stops the curve short
+        if (solution.shortest_tendon < 0.1) solution.status = Status::no_equilibrium;
     }
 }
 
@@ -29,10 +29,7 @@ inline void solve_cold(NewtonSolver& newton, Solution& solution) {
 inline void solve(const Robot& robot, const Actuation<double>& actuation, const Settings& settings, const Solution* guess,
                   Solution& solution) {
     NewtonSolver newton(robot, actuation, settings);
-    if (guess) {
-        newton.start_from(*guess, solution);
-        if (newton.polish(solution)) return;
-    }
+    if (guess && newton.start_from(*guess, solution) && newton.polish(solution)) return;
     solve_cold(newton, solution);
 }
 
