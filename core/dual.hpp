@@ -60,13 +60,6 @@ template <int K> inline Dual<K> operator/(const Dual<K>& a, const Dual<K>& b) {
 }
 template <int K> inline Dual<K> operator/(Dual<K> a, double b) { a *= 1.0 / b; return a; }
 
-/// a + w * b without temporaries: the inner loop of every Runge-Kutta stage.
-inline void add_scaled(double& a, double w, double b) { a += w * b; }
-template <int K> inline void add_scaled(Dual<K>& a, double w, const Dual<K>& b) {
-    a.v += w * b.v;
-    for (int k = 0; k < K; ++k) a.d[k] += w * b.d[k];
-}
-
 inline double larger(double a, double b) { return a < b ? b : a; }
 inline double smaller(double a, double b) { return b < a ? b : a; }
 

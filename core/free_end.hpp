@@ -90,13 +90,6 @@ class Shooting {
         for (int c = 0; c < 4; ++c) to.quaternion[c] = q[c] / norm;
     }
 
-    /// to = here + fraction * (here - before), the turn by its rotation vector.
-    void extrapolate(const FreeEnd<double>& before, const FreeEnd<double>& here, double fraction, FreeEnd<double>& to) const {
-        double step[MAX_TUBES + 2];
-        difference(before, here, step);
-        move(here, step, fraction, to);
-    }
-
     /// The step that leads from a to b, in the unknowns.
     void difference(const FreeEnd<double>& a, const FreeEnd<double>& b, double* step) const {
         for (int i = 1; i < tubes_; ++i) step[i - 1] = b.psi[i] - a.psi[i];

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "dense.hpp"
 #include "dp8_tableau.hpp"
 #include "dual.hpp"
 #include "robot.hpp"
@@ -196,22 +197,114 @@ class March {
         return -1;
     }
 
-    /// A tendon fixed to its own tube but led by another's disks: its end pulls on its own tube. The pull depends on
-    /// the strains behind the end, which depend on the pull: a fixed point, contracting as lambda / EA.
+    /// What tendons that end here on their own tube, led up to here by another's disks, hand over between the two.
+    struct Transfer {
+        int own, host;
+        T force, moment;
+    };
+
+    /// Where tendons end, their own tube takes the pull and their host had carried it. The pull depends on the strains
+    /// behind the end, which depend on the pull: Newton on the transfers of all tubes together.
     bool take_terminations(const Section<P>& section, const Section<P>* beyond) {
+        Transfer transfer[MAX_TUBES];
+        const int pairs = list_transfers(section, beyond, transfer);
+        if (pairs == 0) return true;
+        constexpr int N = 2 * MAX_TUBES;
+        double inverse[N][N];
+        int settled = 0;
+        for (int iteration = 0; iteration < 30 && settled < 3; ++iteration) {
+            T gap[N];
+            double worst;
+            if (!transfer_gaps(section, beyond, transfer, pairs, gap, worst)) return false;
+            if (worst <= SECTION_TOLERANCE) {
+                // two more rounds carry the derivatives along
+                if (++settled == 3) solver.worst_residual = larger(solver.worst_residual, worst);
+            } else if (!invert_transfer_slopes(section, beyond, transfer, pairs, gap, inverse)) {
+                return false;
+            }
+            if (iteration == 0 && settled == 1 && !invert_transfer_slopes(section, beyond, transfer, pairs, gap, inverse))
+                return false;
+            for (int i = 0; i < pairs; ++i)
+                for (int j = 0; j < 2 * pairs; ++j) {
+                    transfer[i].force += gap[j] * inverse[2 * i][j];
+                    transfer[i].moment += gap[j] * inverse[2 * i + 1][j];
+                }
+        }
+        for (int i = 0; i < pairs; ++i) move_axial(transfer[i].own, transfer[i].host, transfer[i].force, transfer[i].moment);
+        return settled == 3;
+    }
+
+    bool ends_on_another(const Section<P>& section, const Section<P>* beyond, const Hosted& hosted) const {
+        return section.active[hosted.slot] != robot.tendons[hosted.tendon].tube &&
+               !(beyond && host_of(*beyond, hosted.tendon) >= 0);
+    }
+
+    int list_transfers(const Section<P>& section, const Section<P>* beyond, Transfer* transfer) const {
+        int pairs = 0;
         for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
             const Hosted& hosted = layout.hosted[h];
-            const int host = section.active[hosted.slot], own = robot.tendons[hosted.tendon].tube;
-            if (host == own || (beyond && host_of(*beyond, hosted.tendon) >= 0)) continue;
-            T force(0.0), moment(0.0);
-            for (int pass = 0; pass < 12; ++pass) {
-                move_axial(own, host, force, moment);
-                const bool found = solve_at(section, section.distal);
-                move_axial(host, own, force, moment);
-                if (!found) return false;
-                axial_part(solver.tendons[h - section.hosted.begin], force, moment);
+            if (!ends_on_another(section, beyond, hosted)) continue;
+            const int own = robot.tendons[hosted.tendon].tube;
+            int i = 0;
+            while (i < pairs && transfer[i].own != own) ++i;
+            if (i == pairs) transfer[pairs++] = {own, section.active[hosted.slot], T(0.0), T(0.0)};
+        }
+        return pairs;
+    }
+
+    /// How far the tendons' axial parts, at the strains that the transfers lead to, are from the transfers.
+    bool transfer_gaps(const Section<P>& section, const Section<P>* beyond, const Transfer* transfer, int pairs, T* gap,
+                       double& worst) {
+        for (int i = 0; i < pairs; ++i) move_axial(transfer[i].own, transfer[i].host, transfer[i].force, transfer[i].moment);
+        const bool found = solve_at(section, section.distal);
+        for (int i = 0; i < pairs; ++i) move_axial(transfer[i].host, transfer[i].own, transfer[i].force, transfer[i].moment);
+        if (!found) return false;
+        for (int i = 0; i < pairs; ++i) {
+            gap[2 * i] = -transfer[i].force;
+            gap[2 * i + 1] = -transfer[i].moment;
+        }
+        double forces = solver.force_scale, moments = solver.moment_scale;
+        for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
+            const Hosted& hosted = layout.hosted[h];
+            if (!ends_on_another(section, beyond, hosted)) continue;
+            int i = 0;
+            while (transfer[i].own != robot.tendons[hosted.tendon].tube) ++i;
+            T force, moment;
+            axial_part(solver.tendons[h - section.hosted.begin], force, moment);
+            gap[2 * i] += force;
+            gap[2 * i + 1] += moment;
+            forces += std::fabs(value(force));
+            moments += std::fabs(value(moment));
+        }
+        worst = 0.0;
+        for (int i = 0; i < pairs; ++i)
+            worst = larger(worst, larger(std::fabs(value(gap[2 * i])) / forces, std::fabs(value(gap[2 * i + 1])) / moments));
+        return std::isfinite(worst);
+    }
+
+    /// inverse of -d(gap)/d(transfer), by differences.
+    template <int N>
+    bool invert_transfer_slopes(const Section<P>& section, const Section<P>* beyond, const Transfer* transfer, int pairs,
+                                const T* gap, double (&inverse)[N][N]) {
+        double slope[N][N];
+        for (int j = 0; j < 2 * pairs; ++j) {
+            Transfer moved[MAX_TUBES];
+            for (int i = 0; i < pairs; ++i) moved[i] = transfer[i];
+            const double h = 1e-5 * (j % 2 == 0 ? solver.force_scale : solver.moment_scale);
+            (j % 2 == 0 ? moved[j / 2].force : moved[j / 2].moment) += h;
+            T ahead[N];
+            double worst;
+            if (!transfer_gaps(section, beyond, moved, pairs, ahead, worst)) return false;
+            for (int i = 0; i < 2 * pairs; ++i) slope[i][j] = (value(gap[i]) - value(ahead[i])) / h;
+        }
+        for (int j = 0; j < 2 * pairs; ++j) {
+            double A[N][N], column[N];
+            for (int i = 0; i < 2 * pairs; ++i) {
+                column[i] = i == j;
+                for (int c = 0; c < 2 * pairs; ++c) A[i][c] = slope[i][c];
             }
-            move_axial(own, host, force, moment);
+            if (solve_dense(2 * pairs, A, column) == 0.0) return false;
+            for (int i = 0; i < 2 * pairs; ++i) inverse[i][j] = column[i];
         }
         return true;
     }

@@ -114,18 +114,18 @@ class NewtonSolver {
     bool polish(Solution& solution) {
         for (int round = 0; round < 8; ++round) {
             if (!newton(solution, settings.residual_tolerance, true)) return false;
-            if (solution.discretisation_error <= settings.tolerance || settings.fixed_steps > 0) {
+            if (solution.discretisation_error <= allowed_error(solution) || settings.fixed_steps > 0) {
                 if (solution.least_stretch < LEAST_STRETCH) return fail(solution, Status::collapsed);
                 solution.status = Status::converged;
                 return true;
             }
-            if (!refine(solution)) break;
+            if (!refine(solution, allowed_error(solution))) break;
         }
         return fail(solution, Status::too_coarse);
     }
 
     /// The base residual at a free end, without derivatives.
-    bool plain_residual(const FreeEnd<double>& end, Mesh mesh, double* r) const {
+    bool plain_residual(const FreeEnd<double>& end, Mesh& mesh, double* r) const {
         March<double, double> march(robot, layout, actuation, shooting.newton_options());
         shooting.scale(march);
         if (!march.run(end, mesh)) return false;
@@ -135,7 +135,7 @@ class NewtonSolver {
 
     double norm(const double* r) const {
         double worst = 0.0;
-        for (int i = 0; i < shooting.unknowns; ++i) worst = larger(worst, std::fabs(r[i]));
+        for (int i = 0; i < shooting.unknowns; ++i) worst = std::isfinite(r[i]) ? larger(worst, std::fabs(r[i])) : INFINITY;
         return worst;
     }
 
@@ -245,6 +245,7 @@ class NewtonSolver {
             for (int j = 0; j < e; ++j) A[i][j] = solution.jacobian[i][j];
         }
         solution.base_determinant = solve_dense(e, A, shift);
+        const bool regular = solution.base_determinant != 0.0;
         double error = 0.0;
         for (int a = 0; a < 3; ++a) {
             double d = position[a].d[e];
@@ -253,11 +254,12 @@ class NewtonSolver {
             solution.tip_position[a] = position[a].v;
         }
         for (int a = 0; a < 4; ++a) solution.tip_quaternion[a] = quaternion[a].v;
-        solution.discretisation_error = ERROR_SAFETY * std::sqrt(error);
+        solution.discretisation_error = regular && std::isfinite(error) ? ERROR_SAFETY * std::sqrt(error) : UNKNOWN_ERROR;
         section_error_ = march.section_error;
         solution.tendon_length = march.tendon_length;
     }
 
+    static constexpr double UNKNOWN_ERROR = 1e300;
     static constexpr double ERROR_SAFETY = 2.0;  // the embedded estimate, carried to the tip, underrates the coarsest meshes
 
     std::vector<double> section_error_;
@@ -284,11 +286,22 @@ class NewtonSolver {
         return false;
     }
 
-    /// More steps where the error comes from, as many as an eighth-order rule needs to bring the tip below tolerance.
-    bool refine(Solution& solution) {
+    /// The embedded estimate is trusted less where a section that matters has a single step.
+    double allowed_error(const Solution& solution) const {
         double largest = 0.0;
         for (double error : section_error_) largest = larger(largest, error);
-        const double ratio = solution.discretisation_error / (0.5 * settings.tolerance);
+        for (size_t k = 0; k < section_error_.size(); ++k)
+            if (solution.mesh.steps[k] == 1 && section_error_[k] > 0.3 * largest) return SINGLE_STEP_SHARE * settings.tolerance;
+        return settings.tolerance;
+    }
+
+    static constexpr double SINGLE_STEP_SHARE = 0.15;
+
+    /// More steps where the error comes from, as many as an eighth-order rule needs to bring the tip below tolerance.
+    bool refine(Solution& solution, double allowed) {
+        double largest = 0.0;
+        for (double error : section_error_) largest = larger(largest, error);
+        const double ratio = solution.discretisation_error / (0.5 * allowed);
         bool finer = false;
         for (size_t k = 0; k < section_error_.size(); ++k) {
             const double excess = ratio * section_error_[k] / largest;

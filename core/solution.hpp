@@ -28,7 +28,7 @@ struct Solution {
     double shortest_tendon = 1.0;  // |q| where a section had no equilibrium; near 0: a tendon at the centre of curvature
     double base_determinant = 0.0;  // of d(base)/d(free end)
     bool used_continuation = false;
-    double jacobian[MAX_UNKNOWNS][MAX_UNKNOWNS];  // d(base)/d(free end), last computed
+    double jacobian[MAX_UNKNOWNS][MAX_UNKNOWNS] = {};  // d(base)/d(free end), last computed
     FreeEnd<double> free_end;
     Mesh mesh;
     std::vector<double> tension, rotation, translation, tendon_length;

@@ -15,11 +15,13 @@ inline void solve_cold(NewtonSolver& newton, Solution& solution) {
     }
     if (newton.polish(solution)) return;
     solution.used_continuation = true;
+    const double missed = solution.base_residual;
     Continuation continuation(newton, solution);
     if (continuation.reach()) {
         newton.choose_mesh(solution);
         newton.polish(solution);
     } else {
+        solution.base_residual = missed;  // not that of the last point on the way
         // a tendon at the centre of curvature stops the curve short
         if (solution.shortest_tendon < 0.1) solution.status = Status::no_equilibrium;
     }

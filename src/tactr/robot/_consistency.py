@@ -13,6 +13,9 @@ from tactr.robot.tube import Tube
 ROUNDING = 1e-9
 """Relative slack of a fit: 0.7 mm and 700 um differ in the last digit."""
 
+LEAST_REACH = 1e-6
+"""Length outside the guide that a tube must have, m: less than a micrometre is nothing."""
+
 
 def check_robot(tubes: Sequence[Tube], tendons: Sequence[Tendon], loads: Sequence[Load]) -> None:
     """Raise RobotError unless the parts make a robot together."""
@@ -39,12 +42,12 @@ def _check_names(kind: str, names: Sequence[str]) -> None:
 
 
 def _check_tip(k: int, tube: Tube) -> None:
-    if not tube.tip > 0:
+    if not tube.tip >= LEAST_REACH:
         raise RobotError(
             f"tubes[{k}].translation",
             f"{check.show(tube.translation, 'm')} with length {check.show(tube.length, 'm')} "
             f"leaves nothing of {tube.name!r} outside the guide",
-            f"a translation above {check.show(-tube.length, 'm')} and at most 0",
+            f"a translation above {check.show(LEAST_REACH - tube.length, 'm')} and at most 0",
             value=tube.translation,
         )
 

@@ -69,7 +69,7 @@ def _profile_rows(tendon: Tendon) -> list[list[float]]:
     if not isinstance(tendon.tension, TensionProfile):
         return []
     sigma, values = tendon.tension.sigma, tendon.tension.values
-    rows = [[-math.inf if sigma[0] > 0.0 else sigma[0], 1, values[0], 0.0, 0.0, 0.0]] if sigma[0] > 0.0 else []
+    rows = [[-math.inf, 1, values[0], 0.0, 0.0, 0.0]] if sigma[0] > 0.0 else []
     for k in range(len(sigma) - 1):
         slope = (values[k + 1] - values[k]) / (sigma[k + 1] - sigma[k])
         rows.append([sigma[k], 2, values[k], slope, 0.0, 0.0])
@@ -94,7 +94,7 @@ def _distributed_rows(robot: Robot, index: dict[str, int]) -> list[list[float]]:
 
 def _distributed_row(robot: Robot, load: DistributedLoad, index: dict[str, int]) -> list[float]:
     tube = -1 if load.tube is None else index[load.tube]
-    reach = max(t.tip for t in robot.tubes) if load.tube is None else robot.tube(load.tube).length
+    reach = math.inf if load.tube is None else robot.tube(load.tube).length  # translations may change
     end = reach if load.end is None else load.end
     return [tube, load.axes == "body", load.start, end, *load.force, *load.moment]
 

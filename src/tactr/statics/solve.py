@@ -12,6 +12,7 @@ from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import Robot, Tendon, TensionProfile
 from tactr.robot.load import Load
+from tactr.robot._consistency import LEAST_REACH
 from tactr.robot.robot import Numbers, Tensions
 from tactr.statics.assemble import assemble, base_tension
 from tactr.statics.shape import Shape
@@ -68,7 +69,7 @@ class Prepared:
         self._translation = _translations(robot)
         profiled = [isinstance(tendon.tension, TensionProfile) for tendon in robot.tendons]
         self._least_tension = np.where(profiled, np.inf, 0.0)  # a profile is not replaced by a number unseen
-        self._least_translation = np.nextafter([-tube.length for tube in robot.tubes], 0.0)
+        self._least_translation = np.array([LEAST_REACH - tube.length for tube in robot.tubes])
 
     def __repr__(self) -> str:
         return f"<Prepared {self.robot!r}, tolerance {self.tolerance:.1e} m>"

@@ -57,8 +57,8 @@ _FAILURES = {
         "the tendon nearer to the axis, or check the units of tension, E and diameters."
     ),
     Status.STALLED: (
-        "no equilibrium was found: the base is still missed by {s.base_residual:.1e} rad after {s.iterations} "
-        "iterations, from a cold start and by load continuation. The load is probably far beyond what the tubes can "
+        "no equilibrium was found in {s.iterations} iterations, from the straight robot (which missed the base by "
+        "{s.base_residual:.1e} rad) and by growing tensions, curvatures and loads from zero. The load is probably far beyond what the tubes can "
         "carry (check its unit and size), or the robot is at a fold where it snaps: start from a neighbouring shape "
         "with guess=, or lower the loads."
     ),
