@@ -29,7 +29,6 @@ from tactr.statics import Prepared
 
 WANTED = 0.999
 TOLERANCE = 1e-6  # m
-RESIDUAL_TOLERANCE = 1e-9  # of every equation, scaled: what a success promises
 AUDIT_TOLERANCE = 1e-10
 ANOTHER_SHAPE = 1e-3  # m
 FLOOR = 1e-9  # m, below which an estimate is not asked to hold
@@ -118,9 +117,8 @@ def print_successes(good: list[Outcome]) -> None:
     if not good:
         return
     residual, error = max(o.residual for o in good), max(o.discretisation_error for o in good)
-    print(
-        f"worst residual of a success: {residual:.1e} (tolerances from {min(o.residual_tolerance for o in good):.0e})"
-    )
+    tolerance = min(o.residual_tolerance for o in good)
+    print(f"worst residual of a success: {residual:.1e} (tolerances from {tolerance:.0e})")
     print(f"worst estimated discretisation error of a success: {error:.1e} m (tolerance {TOLERANCE:.0e} m)")
     times = 1e3 * np.sort([o.seconds for o in good])
     print(

@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tactr import materials, reference
+    from tactr import examples, materials, reference
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
     from tactr.io import load, save
     from tactr.robot import (
@@ -60,7 +60,7 @@ _HOME = {
     "tactr.statics": ("Prepared", "Shape", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
-_SUBMODULES = ("materials", "reference")
+_SUBMODULES = ("examples", "materials", "reference")
 
 __version__ = "0.1.0"
 __all__ = [
@@ -93,6 +93,7 @@ __all__ = [
     "TipJacobian",
     "Tube",
     "TubeShape",
+    "examples",
     "load",
     "materials",
     "reference",

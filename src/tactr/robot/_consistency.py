@@ -47,7 +47,7 @@ def _check_tip(k: int, tube: Tube) -> None:
             f"tubes[{k}].translation",
             f"{check.show(tube.translation, 'm')} with length {check.show(tube.length, 'm')} "
             f"leaves nothing of {tube.name!r} outside the guide",
-            f"a translation above {check.show(LEAST_REACH - tube.length, 'm')} and at most 0",
+            f"a translation above {check.show(-tube.length, 'm')} and at most 0",
             value=tube.translation,
         )
 

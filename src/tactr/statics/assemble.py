@@ -14,15 +14,19 @@ COEFFICIENTS = 16
 
 
 def assemble(robot: Robot) -> _core.PreparedRobot:
-    """The robot as the kernel sees it: tubes, pieces, tendons, routing, tension profiles and loads as tables."""
+    """The robot as the kernel sees it: tubes, tendons, routing, tension profiles and loads as tables."""
     index = {tube.name: i for i, tube in enumerate(robot.tubes)}
     return _core.PreparedRobot(
         tubes=_table([_tube_row(tube) for tube in robot.tubes], 3),
         pieces=_table([row for tube in robot.tubes for row in _piece_rows(tube)], 9),
         tendons=_table([_tendon_row(robot, tendon, index) for tendon in robot.tendons], 5),
-        routing=_table([row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS),
+        routing=_table(
+            [row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS
+        ),
         profiles=_table([row for tendon in robot.tendons for row in _profile_rows(tendon)], 6),
-        point_loads=_table([_point_row(robot, load, index) for load in robot.loads if isinstance(load, PointLoad)], 9),
+        point_loads=_table(
+            [_point_row(robot, load, index) for load in robot.loads if isinstance(load, PointLoad)], 9
+        ),
         distributed_loads=_table(_distributed_rows(robot, index), 10),
     )
 

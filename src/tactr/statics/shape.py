@@ -25,9 +25,10 @@ if TYPE_CHECKING:
 class TubeShape:
     """One tube along the stations where it is, k of them; s is arc length from the guide's exit.
 
-    name; s, sigma (k,) m; position (k, 3) m and frames (k, 3, 3) (columns d1, d2, d3), world axes; psi (k,) rad, angle
-    of the material frame from the twist-free frame; u (k, 3) curvature and twist 1/m, v (k, 3) shear and stretch,
-    n (k, 3) internal force N, m (k, 3) internal moment N m, all in the tube's own material frame.
+    name; s, sigma (k,) m; position (k, 3) m and frames (k, 3, 3) (columns d1, d2, d3), world axes; psi (k,)
+    rad, angle of the material frame from the twist-free frame; u (k, 3) curvature and twist 1/m, v (k, 3)
+    shear and stretch, n (k, 3) internal force N, m (k, 3) internal moment N m, all in the tube's own
+    material frame.
     """
 
     name: str
@@ -49,8 +50,8 @@ class TubeShape:
 class TendonShape:
     """One tendon along the stations where it runs outside the guide, k of them.
 
-    name; tube: where it ends; s (k,) m; path (k, 3) m, world axes; tension (k,) N; length: m, of the deformed tendon
-    from its tube's proximal end to its termination.
+    name; tube: where it ends; s (k,) m; path (k, 3) m, world axes; tension (k,) N; length: m, of the
+    deformed tendon from its tube's proximal end to its termination.
     """
 
     name: str
@@ -67,8 +68,8 @@ class TendonShape:
 class TipJacobian(NamedTuple):
     """Derivatives of the tip: rows are its position (m), then its small rotation (rad), both in world axes.
 
-    tension (6, tendons), per N; rotation (6, tubes), per rad. A tendon with a TensionProfile counts per unit of a
-    factor on the whole profile.
+    tension (6, tendons), per N; rotation (6, tubes), per rad. A tendon with a TensionProfile counts per unit
+    of a factor on the whole profile.
     """
 
     tension: np.ndarray
@@ -78,9 +79,9 @@ class TipJacobian(NamedTuple):
 class Shape:
     """The shape of a robot under given actuation, or why there is none.
 
-    Always readable: robot, status, converged, message, residual, residual_tolerance, iterations, discretisation_error,
-    tolerance, solve_time. The
-    geometry raises NotConverged unless converged. World frame: z along the guide, which the robot leaves at s = 0.
+    Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,
+    discretisation_error, tolerance, solve_time. The geometry raises NotConverged unless converged. World
+    frame: z along the guide, which the robot leaves at s = 0.
     """
 
     def __init__(
@@ -174,7 +175,7 @@ class Shape:
 
     @property
     def theta(self) -> np.ndarray:
-        """Angle of every tube relative to the outermost tube present, (tubes, k), rad; 0 where a tube is absent."""
+        """Angle of every tube from the outermost tube present, (tubes, k), rad; 0 where a tube is absent."""
         psi, present = self._samples["psi"][..., 0], self._samples["present"] > 0
         first = np.argmax(present, axis=0)
         return np.where(present, psi - psi[first, np.arange(psi.shape[1])], 0.0)
@@ -193,6 +194,9 @@ class Shape:
     def transition_points(self) -> tuple[np.ndarray, np.ndarray]:
         """Where a tube ends before the robot does: points (k, 3) in m, world axes, and their s (k,) in m."""
         tips = sorted({tube.tip for tube in self.robot.tubes})[:-1]
+        if not tips:
+            self._require_convergence()
+            return np.empty((0, 3)), np.empty(0)
         return self.sample(tips).centreline, np.array(tips)
 
     def sample(self, stations: Stations) -> Shape:
@@ -232,8 +236,8 @@ class Shape:
             return f"<Shape of {self.robot.name or 'robot'}: {self.status.value}; {self.message}>"
         x, y, z = self.tip_position * 1e3
         return (
-            f"<Shape of {self.robot.name or 'robot'}: tip ({x:.3f}, {y:.3f}, {z:.3f}) mm, residual {self.residual:.0e}, "
-            f"discretisation {self.discretisation_error:.0e} m>"
+            f"<Shape of {self.robot.name or 'robot'}: tip ({x:.3f}, {y:.3f}, {z:.3f}) mm, "
+            f"residual {self.residual:.0e}, discretisation {self.discretisation_error:.0e} m>"
         )
 
     @cached_property

@@ -11,8 +11,8 @@ import numpy as np
 from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import Robot, Tendon, TensionProfile
-from tactr.robot.load import Load
 from tactr.robot._consistency import LEAST_REACH
+from tactr.robot.load import Load
 from tactr.robot.robot import Numbers, Tensions
 from tactr.statics.assemble import assemble, base_tension
 from tactr.statics.shape import Shape
@@ -35,10 +35,11 @@ def solve(
 ) -> Shape:
     """The quasi-static shape of a robot. A result always comes back: look at ``converged`` and ``message``.
 
-    tension: N, by tendon; rotation: rad, translation: m <= 0, by tube; each a mapping from names or a sequence in order,
-    and what is left out stays as the robot has it. loads: replace the robot's. guess: a neighbouring shape of the same
-    robot, for speed. tolerance: discretisation error at the tip, m. stations: their number, spread evenly over the
-    length outside the guide, or s in m, ascending. Raises RobotError for a wrong actuation.
+    tension: N, by tendon; rotation: rad, translation: m <= 0, by tube; each a mapping from names or a
+    sequence in order, and what is left out stays as the robot has it. loads: replace the robot's. guess: a
+    neighbouring shape of the same robot, for speed. tolerance: discretisation error at the tip, m. stations:
+    their number, spread evenly over the length outside the guide, or s in m, ascending. Raises RobotError
+    for a wrong actuation.
     """
     if loads is not None:
         robot = robot.replace(loads=tuple(loads))
@@ -50,8 +51,9 @@ def solve(
 class Prepared:
     """A robot made ready to be solved many times, as in a control loop; only its actuation changes.
 
-    tolerance (m) and stations as in ``solve``; residual_tolerance (rad) follows: the angle by which the base may be
-    missed, a twentieth of the tolerance over the length of the longest tube. Arrays of floats for every tendon or tube are the fastest actuation.
+    tolerance (m) and stations as in ``solve``; residual_tolerance (rad) follows: the angle by which the base
+    may be missed, a twentieth of the tolerance over the length of the longest tube. Arrays of floats for
+    every tendon or tube are the fastest actuation.
     """
 
     def __init__(
@@ -94,7 +96,11 @@ class Prepared:
             if any(map(_differs_in_profile, self.robot.tendons, robot.tendons)):
                 other = Prepared(robot, tolerance=self.tolerance, stations=self._given_stations)
                 return other.solve(guess=guess)
-            given = {"tension": _tensions(robot), "rotation": _rotations(robot), "translation": _translations(robot)}
+            given = {
+                "tension": _tensions(robot),
+                "rotation": _rotations(robot),
+                "translation": _translations(robot),
+            }
         own = {"tension": self._tension, "rotation": self._rotation, "translation": self._translation}
         arrays = {name: own[name] if array is None else np.array(array) for name, array in given.items()}
         start = perf_counter()
@@ -122,7 +128,7 @@ class Prepared:
 
     @staticmethod
     def _is_plain(given: object, own: np.ndarray, above: float | np.ndarray, most: float) -> bool:
-        """Whether an actuation is absent or an array that needs no closer look: as many floats, all in bounds."""
+        """Whether an actuation is absent, or an array that needs no closer look: floats, all in bounds."""
         if given is None:
             return True
         if not (isinstance(given, np.ndarray) and given.dtype == np.float64 and given.shape == own.shape):

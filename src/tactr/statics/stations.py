@@ -13,7 +13,7 @@ Stations = int | Sequence[float] | np.ndarray
 
 
 def station_places(robot: Robot, stations: Stations) -> np.ndarray:
-    """Arc lengths s of the stations, (k,), m: so many evenly over the length outside the guide, or as given."""
+    """Arc lengths s of the stations, (k,), m: so many, even over the length outside, or as given."""
     length = max(tube.tip for tube in robot.tubes)
     if isinstance(stations, int | np.integer):
         if isinstance(stations, bool) or stations < 2:
@@ -28,5 +28,7 @@ def station_places(robot: Robot, stations: Stations) -> np.ndarray:
         raise RobotError("stations", f"{stations!r} is not a list of numbers", expected, value=stations)
     rounding = 1e-12 * length
     if np.any(np.diff(s) < 0) or s[0] < -rounding or s[-1] > length + rounding:
-        raise RobotError("stations", f"from {s[0]:.6g} to {s[-1]:.6g} m, or not ascending", expected, value=stations)
+        raise RobotError(
+            "stations", f"from {s[0]:.6g} to {s[-1]:.6g} m, or not ascending", expected, value=stations
+        )
     return np.clip(s, 0.0, length)

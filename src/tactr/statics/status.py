@@ -41,33 +41,38 @@ def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
     if status is Status.CONVERGED:
         return (
             f"converged: base missed by {solution.base_residual:.1e} rad, section equilibrium to "
-            f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m at the tip"
+            f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m "
+            "at the tip"
         )
     return _FAILURES[status].format(s=solution, tolerance=tolerance)
 
 
 _FAILURES = {
     Status.NO_SECTION_EQUILIBRIUM: (
-        "no equilibrium was found: a cross-section has none under this load. The load or a tension is far beyond "
-        "what the tubes can carry; check its unit and size, and the tubes' stiffness."
+        "no equilibrium was found: a cross-section has none under this load. The load or a tension is "
+        "far beyond what the tubes can carry; check its unit and size, and the tubes' stiffness."
     ),
     Status.KINKED: (
-        "no equilibrium was found: a tendon bends its tubes to a radius as small as its own offset from the axis, where "
-        "its path has no length left (disks would touch). Lower that tension, stiffen the tubes that carry it, bring "
-        "the tendon nearer to the axis, or check the units of tension, E and diameters."
+        "no equilibrium was found: a tendon bends its tubes to a radius as small as its own offset from "
+        "the axis, where its path has no length left (disks would touch). Lower that tension, stiffen "
+        "the tubes that carry it, bring the tendon nearer to the axis, or check the units of tension, E "
+        "and diameters."
     ),
     Status.STALLED: (
-        "no equilibrium was found in {s.iterations} iterations, from the straight robot (which missed the base by "
-        "{s.base_residual:.1e} rad) and by growing tensions, curvatures and loads from zero. The load is probably far beyond what the tubes can "
-        "carry (check its unit and size), or the robot is at a fold where it snaps: start from a neighbouring shape "
-        "with guess=, or lower the loads."
+        "no equilibrium was found in {s.iterations} iterations, from the straight robot (which missed "
+        "the base by {s.base_residual:.1e} rad) and by growing tensions, curvatures and loads from zero. "
+        "The load is probably far beyond what the tubes can carry (check its unit and size), or the "
+        "robot is at a fold where it snaps: start from a neighbouring shape with guess=, or lower the "
+        "loads."
     ),
     Status.TOO_COARSE: (
-        "the discretisation error {s.discretisation_error:.1e} m stayed above the tolerance {tolerance:.1e} m. Ask for "
-        "a coarser tolerance, or check the routing and the loads for extremely fast variation along the tubes."
+        "the discretisation error {s.discretisation_error:.1e} m stayed above the tolerance "
+        "{tolerance:.1e} m. Ask for a coarser tolerance, or check the routing and the loads for "
+        "extremely fast variation along the tubes."
     ),
     Status.COLLAPSED: (
-        "the solution found compresses a tube to {s.least_stretch:.3g} of its length, where linear elasticity means "
-        "nothing. A tension or an axial load is far too large, or EA too small; check their units."
+        "the solution found compresses a tube to {s.least_stretch:.3g} of its length, where linear "
+        "elasticity means nothing. A tension or an axial load is far too large, or EA too small; check "
+        "their units."
     ),
 }

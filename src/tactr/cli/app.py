@@ -1,0 +1,63 @@
+"""The commands; their modules are imported when they run, and their help is in help_text.py."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from tactr import __version__
+
+DEFAULT_EXAMPLE = "two_tube_90"
+
+
+app = App(name="tactr", version=__version__, help_flags=[], default_parameter=Parameter(negative=()))
+
+Assignments = Annotated[list[str], Parameter(consume_multiple=(1, None))]
+
+
+@app.command
+def solve(
+    file: str = DEFAULT_EXAMPLE,
+    /,
+    *,
+    tension: Assignments = [],  # noqa: B006
+    rotation: Assignments = [],  # noqa: B006
+    translation: Assignments = [],  # noqa: B006
+    tolerance: str | None = None,
+    json: bool = False,
+    save: Path | None = None,
+    plot: Path | None = None,
+) -> int:
+    """Compute the shape of a robot and report it."""
+    from tactr.cli.solve import Request, run_solve
+
+    return run_solve(Request(file, tension, rotation, translation, tolerance, json, save, plot))
+
+
+@app.command
+def check(files: list[str], /) -> int:
+    """Check robot files without solving; every problem is listed with its line."""
+    from tactr.cli.check import run_check
+
+    return run_check(files)
+
+
+@app.command
+def schema() -> int:
+    """Print the JSON Schema of robot files, with which editors complete and check them."""
+    import json
+
+    from tactr.io.layout import json_schema
+
+    print(json.dumps(json_schema(), indent=2, ensure_ascii=False))
+    return 0
+
+
+@app.command
+def examples(name: str | None = None, /) -> int:
+    """List the built-in example robots, or print one."""
+    from tactr.cli.examples import run_examples
+
+    return run_examples(name)

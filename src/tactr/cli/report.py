@@ -1,0 +1,92 @@
+"""The result of a solve for people to read; a table library would take longer to import than the solve."""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tactr.robot import Robot, Tendon
+    from tactr.statics import Shape
+
+BOLD, FAINT, GREEN = "1", "2", "32"
+GAP = "   "
+
+
+def print_report(shape: Shape, written: Sequence[Path] = ()) -> None:
+    """Print tip, tubes, tendons and how well the solve converged; written: the files that were made."""
+    robot = shape.robot
+    print(f"{_styled(robot.name or 'robot', BOLD)}: {_contents(robot)}\n")
+    for table in (_tip(shape), _tubes(robot), _tendons(shape)):
+        if len(table) > 1:
+            print(_aligned(table) + "\n")
+    print(
+        f"{_styled('converged', GREEN)} in {_count(shape.iterations, 'iteration')},"
+        f" {shape.solve_time * 1e3:.3g} ms: residual {shape.residual:.1e},"
+        f" discretisation error at the tip {shape.discretisation_error * 1e6:.2g} um"
+    )
+    if robot.assumed:
+        remark = f"{_count(len(robot.assumed), 'value')} assumed, not given by the source: see tactr check"
+        print(_styled(remark, FAINT))
+    for path in written:
+        print(f"wrote {path}")
+
+
+def _contents(robot: Robot) -> str:
+    members = {"tube": robot.tubes, "tendon": robot.tendons, "load": robot.loads}
+    return ", ".join(_count(len(parts), noun) for noun, parts in members.items())
+
+
+def _tip(shape: Shape) -> list[list[str]]:
+    direction = [f"{component:z.4f}" for component in shape.tip_orientation[:, 2]]
+    return [
+        ["tip", "x", "y", "z"],
+        ["position (mm)", *map(_mm, shape.tip_position)],
+        ["direction", *direction],
+    ]
+
+
+def _tubes(robot: Robot) -> list[list[str]]:
+    rows = [["tube", "length (mm)", "outside guide (mm)", "translation (mm)", "rotation (deg)"]]
+    for tube in robot.tubes:
+        lengths = [_mm(value) for value in (tube.length, tube.tip, tube.translation)]
+        rows.append([tube.name, *lengths, f"{math.degrees(tube.rotation):z.1f}"])
+    return rows
+
+
+def _tendons(shape: Shape) -> list[list[str]]:
+    rows = [["tendon", "ends on", "tension (N)", "length (mm)"]]
+    for tendon, drawn in zip(shape.robot.tendons, shape.tendons, strict=True):
+        rows.append([tendon.name, tendon.tube, _tension(tendon), _mm(drawn.length)])
+    return rows
+
+
+def _tension(tendon: Tendon) -> str:
+    return f"{tendon.tension:g}" if isinstance(tendon.tension, (int, float)) else "profile"
+
+
+def _mm(value: float) -> str:
+    return f"{value * 1e3:z.3f}"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}" if number else f"no {noun}s"
+
+
+def _aligned(rows: Sequence[Sequence[str]]) -> str:
+    """Rows as text, the first column to the left, the others to the right; the first row is the head."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = []
+    for first, *others in rows:
+        cells = [f"{cell:>{width}}" for cell, width in zip(others, widths[1:], strict=True)]
+        lines.append(GAP.join([f"{first:<{widths[0]}}", *cells]))
+    return "\n".join([_styled(lines[0], FAINT), *lines[1:]])
+
+
+def _styled(text: str, code: str) -> str:
+    plain = os.environ.get("NO_COLOR") or not sys.stdout.isatty()
+    return text if plain else f"\033[{code}m{text}\033[0m"

@@ -1,0 +1,273 @@
+"""The layout of a robot file: what `tactr.load` accepts and `tactr schema` prints."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tactr.io.fields import Coefficients, Items, Text, quantity, vector
+from tactr.io.records import Either, Field, Record, Texts, Variants
+
+LENGTH, ANGLE, FORCE = quantity("length"), quantity("angle"), quantity("force")
+MODULUS, CURVATURE = quantity("modulus"), vector("curvature")
+EXTENSION, BENDING = quantity("axial or shear stiffness"), quantity("bending or torsional stiffness")
+AXES = Text(("world", "body"))
+
+
+def _given(*groups: str) -> tuple[frozenset[str], ...]:
+    return tuple(frozenset(group.split()) for group in groups)
+
+
+def _routings() -> tuple[Record, ...]:
+    return (STRAIGHT, HELIX, POLYNOMIAL, POLAR_POLYNOMIAL, SPLINE, PIECEWISE)
+
+
+ROUTING = Variants("routing", _routings)
+
+STRAIGHT = Record(
+    "Parallel to the tube, at (x, y) or at a radius and an angle.",
+    {
+        "x": Field(LENGTH, "offset along the tube's own x axis"),
+        "y": Field(LENGTH, "offset along the tube's own y axis"),
+        "radius": Field(LENGTH, "distance from the tube's axis"),
+        "angle": Field(ANGLE, "angle from the tube's own x axis towards y"),
+    },
+    _given("x y", "radius angle"),
+    kind="straight",
+)
+HELIX = Record(
+    "Wound round the tube: angle = rate * arc length + phase.",
+    {
+        "radius": Field(LENGTH, 'distance from the tube\'s axis, such as "6.5 mm"', required=True),
+        "rate": Field(quantity("angle rate"), 'angle per arc length, such as "0.5 deg/mm"'),
+        "pitch": Field(LENGTH, "arc length of one turn, instead of rate; negative is left-handed"),
+        "phase": Field(ANGLE, "angle at the tube's proximal end; default 0"),
+    },
+    _given("rate", "pitch"),
+    kind="helix",
+)
+POLYNOMIAL = Record(
+    "x and y as polynomials of the arc length, ascending powers.",
+    {
+        "x": Field(
+            Coefficients("length"), 'coefficients of x, such as ["6.5 mm", 0.01, "2 1/m"]', required=True
+        ),
+        "y": Field(
+            Coefficients("length"), 'coefficients of y, such as ["6.5 mm", 0.01, "2 1/m"]', required=True
+        ),
+    },
+    kind="polynomial",
+)
+POLAR_POLYNOMIAL = Record(
+    "Radius and angle as polynomials of the arc length, ascending powers.",
+    {
+        "radius": Field(
+            Coefficients("length"), 'coefficients of the radius, such as ["6.5 mm"]', required=True
+        ),
+        "angle": Field(
+            Coefficients("angle"), 'coefficients of the angle, such as ["90 deg", "2 rad/m"]', required=True
+        ),
+    },
+    kind="polar_polynomial",
+)
+SPLINE = Record(
+    "A smooth curve (cubic spline) through points.",
+    {
+        "sigma": Field(Items(LENGTH), 'arc lengths of the points, such as ["0 mm", "140 mm"]', required=True),
+        "points": Field(
+            Items(Items(LENGTH, 2)),
+            '(x, y) at each of them, such as [["6 mm", 0], [0, "6 mm"]]',
+            required=True,
+        ),
+    },
+    kind="spline",
+)
+PART = Record(
+    "One part of a piecewise routing.",
+    {
+        "from": Field(LENGTH, 'arc length where the part begins, such as "60 mm"', required=True),
+        "routing": Field(
+            ROUTING, "its routing, a function of the arc length of the whole tube", required=True
+        ),
+    },
+)
+PIECEWISE = Record(
+    "Routings one after the other, each meeting the one before; the direction may jump.",
+    {"parts": Field(Items(PART), "the parts, in order, the first from 0 mm", required=True)},
+    kind="piecewise",
+)
+
+MATERIAL = Record(
+    "A material given by its constants.",
+    {
+        "E": Field(MODULUS, 'Young\'s modulus, such as "65 GPa"', required=True),
+        "G": Field(MODULUS, 'shear modulus, such as "24.4 GPa"'),
+        "nu": Field(quantity("number"), "Poisson's ratio, instead of G"),
+        "density": Field(quantity("density"), 'such as "6450 kg/m^3"; needed where gravity acts'),
+        "name": Field(Text(), "what people call it"),
+        "source": Field(Text(), "where the constants come from"),
+    },
+    _given("G", "nu"),
+)
+STIFFNESS = Record(
+    "The stiffness of a section given directly, for notched, printed or calibrated tubes.",
+    {
+        "EA": Field(EXTENSION, 'axial stiffness, such as "12 kN"', required=True),
+        "GA": Field(EXTENSION, 'shear stiffness, such as "5 kN"', required=True),
+        "EI_x": Field(
+            BENDING, 'stiffness of bending about the tube\'s own x axis, such as "5000 N mm^2"', required=True
+        ),
+        "EI_y": Field(
+            BENDING, 'stiffness of bending about the tube\'s own y axis, such as "5000 N mm^2"', required=True
+        ),
+        "GJ": Field(BENDING, 'torsional stiffness, such as "4000 N mm^2"', required=True),
+        "linear_density": Field(
+            quantity("linear density"), 'mass per length, such as "2 g/m"; needed where gravity acts'
+        ),
+    },
+)
+REST_SHAPE = Record(
+    "The rest shape from one arc length of the tube on.",
+    {
+        "from": Field(LENGTH, 'arc length where this rest curvature begins, such as "60 mm"', required=True),
+        "u": Field(CURVATURE, 'rest curvature and twist, such as ["10 1/m", 0, 0]', required=True),
+    },
+)
+
+
+class _RestShapes:
+    """A vector, or a list of pieces: told apart by what the list holds."""
+
+    def _block(self, value: Any) -> Items:
+        return (
+            Items(REST_SHAPE)
+            if isinstance(value, list) and value and isinstance(value[0], dict)
+            else CURVATURE
+        )
+
+    def read(self, value: Any, path: Any, report: Any) -> Any:
+        return self._block(value).read(value, path, report)
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [CURVATURE.schema(), Items(REST_SHAPE).schema()]}
+
+
+TUBE = Record(
+    "One tube: its section is outer_diameter and inner_diameter, or diameter (a solid rod), or stiffness.",
+    {
+        "name": Field(Text(), "a text by which tendons, loads and commands refer to the tube", required=True),
+        "length": Field(LENGTH, 'length of the whole tube, such as "140 mm"', required=True),
+        "outer_diameter": Field(LENGTH, 'outer diameter, such as "1.35 mm"; also allowed beside stiffness'),
+        "inner_diameter": Field(LENGTH, 'bore, such as "1.07 mm"; also allowed beside stiffness'),
+        "diameter": Field(LENGTH, "diameter of a solid rod"),
+        "stiffness": Field(STIFFNESS, "stiffness of the section, instead of diameters and material"),
+        "material": Field(
+            Either(MATERIAL, Text()), "the name of a preset such as nitinol, or E and one of G and nu"
+        ),
+        "precurvature": Field(
+            _RestShapes(),
+            'rest curvature and twist in the tube\'s own frame, such as ["10 1/m", 0, 0], or pieces',
+        ),
+        "translation": Field(
+            LENGTH, "z of the proximal end: 0 at the guide's exit (the default), negative behind it"
+        ),
+        "rotation": Field(ANGLE, "angle about +z imposed at the proximal end; default 0"),
+    },
+    _given(
+        "outer_diameter inner_diameter",
+        "diameter",
+        "stiffness",
+        "stiffness outer_diameter",
+        "stiffness inner_diameter",
+        "stiffness outer_diameter inner_diameter",
+    ),
+    choice="outer_diameter and inner_diameter, or diameter (a solid rod), or stiffness",
+)
+PROFILE = Record(
+    "A tension that varies along the tendon, straight between samples.",
+    {
+        "sigma": Field(Items(LENGTH), 'arc lengths, such as ["0 mm", "140 mm"]', required=True),
+        "values": Field(Items(FORCE), 'tensions there, such as ["3 N", "2.5 N"]', required=True),
+    },
+)
+TENDON = Record(
+    "One tendon.",
+    {
+        "name": Field(Text(), "a text by which commands refer to the tendon", required=True),
+        "tube": Field(Text(), "the name of the tube on which it ends", required=True),
+        "routing": Field(
+            ROUTING, "where it runs, such as {kind: straight, x: 0 mm, y: 6.5 mm}", required=True
+        ),
+        "host": Field(
+            Text(("own", "outermost")),
+            "what guides it: its own tube (the default), or the outermost tube present",
+        ),
+        "tension": Field(
+            Either(PROFILE, FORCE), 'pull, such as "2 N", or a profile along the tendon; default 0'
+        ),
+        "end": Field(LENGTH, "arc length of the tube where it ends; default: the tube's tip"),
+    },
+)
+POINT_LOAD = Record(
+    "A force and a moment at one place of a tube.",
+    {
+        "tube": Field(Text(), "the name of a tube", required=True),
+        "force": Field(vector("force"), 'such as ["0.1 N", 0, 0]'),
+        "moment": Field(vector("moment"), 'such as ["5 N mm", 0, 0]'),
+        "at": Field(LENGTH, "arc length of the tube; default: its tip"),
+        "axes": Field(
+            AXES, "axes of force and moment: fixed in the world (the default) or turning with the body"
+        ),
+    },
+    kind="point",
+)
+DISTRIBUTED_LOAD = Record(
+    "A force and a moment per length.",
+    {
+        "tube": Field(Text(), "the name of a tube; default: the outermost tube present"),
+        "force": Field(vector("force per length"), 'such as ["0.3 N/m", 0, 0]'),
+        "moment": Field(vector("moment per length"), 'such as ["0.1 N m/m", 0, 0]'),
+        "start": Field(
+            LENGTH, "arc length where it starts (of the tube, or from the guide's exit); default 0"
+        ),
+        "end": Field(LENGTH, "arc length where it ends; default: as far as there is a tube"),
+        "axes": Field(
+            AXES, "axes of force and moment: fixed in the world (the default) or turning with the body"
+        ),
+    },
+    kind="distributed",
+)
+GRAVITY = Record(
+    "The weight of every tube; each needs a density.",
+    {"acceleration": Field(vector("acceleration"), "default: [0, 0, -9.81 m/s^2], the robot points up")},
+    kind="gravity",
+)
+LOAD = Variants("load", lambda: (POINT_LOAD, DISTRIBUTED_LOAD, GRAVITY))
+
+ROBOT = Record(
+    "A tendon-actuated concentric tube robot.",
+    {
+        "name": Field(Text(), "a short name"),
+        "description": Field(Text(), "what it is and where the numbers come from"),
+        "assumed": Field(
+            Either(Texts(), Items(Text())),
+            "fields that are guesses, such as tubes[0].outer_diameter: reason; or remarks",
+        ),
+        "tubes": Field(Items(TUBE), "a list of tubes, outermost first", required=True),
+        "tendons": Field(Items(TENDON), "a list of tendons"),
+        "loads": Field(Items(LOAD), "a list of loads"),
+    },
+)
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON Schema (2020-12) of a robot file, for editors and other programs."""
+    variants = {
+        variant.what: {"oneOf": [record.schema() for record in variant.records()]}
+        for variant in (ROUTING, LOAD)
+    }
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "tactr robot file",
+        **ROBOT.schema(),
+        "$defs": variants,
+    }

@@ -1,0 +1,146 @@
+"""A shape as a labelled dataset, and as a netCDF-4 file.
+
+Tubes and tendons have different numbers of stations. They are stored one after the other (the "contiguous
+ragged array" of the CF conventions, no filling values): `tube_index` says to which tube each entry of the
+dimension `tube_station` belongs.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tactr.errors import FileError, MissingExtra, RobotError
+
+if TYPE_CHECKING:
+    import xarray
+
+    from tactr.statics import Shape
+
+_TUBE_FIELDS = {
+    "s": ("m", "arc length from the guide's exit"),
+    "sigma": ("m", "arc length of the tube"),
+    "position": ("m", "centreline, world axes"),
+    "psi": ("rad", "angle of the tube's material frame from the twist-free frame"),
+    "u": ("1/m", "curvature and twist, tube's own frame"),
+    "v": ("1", "shear and stretch, tube's own frame"),
+    "n": ("N", "internal force, tube's own frame"),
+    "m": ("N m", "internal moment, tube's own frame"),
+}
+
+
+def to_xarray(shape: Shape) -> xarray.Dataset:
+    """Everything in a shape as an xarray Dataset with units, SI, world axes unless said otherwise.
+
+    The attributes tell how the solve ended and hold the robot as the text of a robot file. Raises
+    NotConverged where there is no shape, MissingExtra without xarray.
+    """
+    xr = _import("xarray")
+    variables: dict[str, Any] = {}
+    _add_robot(variables, shape)
+    _add_tubes(variables, shape)
+    if shape.tendons:
+        _add_tendons(variables, shape)
+    coordinates = {
+        "axis": ("axis", ["x", "y", "z"]),
+        "component": ("component", ["w", "x", "y", "z"]),
+        "tube": ("tube", [tube.name for tube in shape.robot.tubes]),
+    }
+    if shape.tendons:
+        coordinates["tendon"] = ("tendon", [tendon.name for tendon in shape.robot.tendons])
+    return xr.Dataset(variables, coordinates, _attributes(shape))
+
+
+def save(shape: Shape, path: str | os.PathLike[str]) -> None:
+    """Write `to_xarray(shape)` to a netCDF-4 file, which xarray, MATLAB's h5read and any HDF5 reader open.
+
+    Raises FileError where the file cannot be written, NotConverged where there is no shape, MissingExtra
+    without the extra netcdf.
+    """
+    _import("h5netcdf")
+    dataset = to_xarray(shape)
+    try:
+        dataset.to_netcdf(path, engine="h5netcdf")
+    except OSError as error:
+        raise FileError(f"cannot be written: {error.strerror or error}", path=path) from None
+
+
+def _import(module: str) -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module(module)
+    except ImportError:
+        raise MissingExtra(module, "netcdf", "a dataset of a shape") from None
+
+
+def _variable(dims: str, values: Any, units: str, text: str) -> tuple[list[str], np.ndarray, dict[str, str]]:
+    return dims.split(), np.asarray(values), {"units": units, "long_name": text}
+
+
+def _add_robot(variables: dict[str, Any], shape: Shape) -> None:
+    points, places = shape.transition_points
+    variables["s"] = _variable("station", shape.s, "m", "arc length from the guide's exit")
+    variables["centreline"] = _variable("station axis", shape.centreline, "m", "centreline")
+    variables["tip_position"] = _variable("axis", shape.tip_position, "m", "position of the tip")
+    variables["tip_quaternion"] = _variable("component", shape.tip_quaternion, "1", "orientation of the tip")
+    variables["transition_s"] = _variable(
+        "transition", places, "m", "arc length where a tube ends before the robot does"
+    )
+    variables["transition_point"] = _variable(
+        "transition axis", points.reshape(-1, 3), "m", "centreline there"
+    )
+
+
+def _add_tubes(variables: dict[str, Any], shape: Shape) -> None:
+    counts = [len(tube.s) for tube in shape.tubes]
+    index = np.repeat(np.arange(len(counts)), counts)
+    variables["tube_index"] = _variable("tube_station", index, "1", "tube of each entry, outermost 0")
+    for name, (units, text) in _TUBE_FIELDS.items():
+        values = np.concatenate([getattr(tube, name) for tube in shape.tubes])
+        dims = "tube_station" if values.ndim == 1 else "tube_station axis"
+        variables[f"tube_{name}"] = _variable(dims, values, units, text)
+    frames = np.concatenate([tube.frames for tube in shape.tubes])
+    text = "material frame: its columns are the directors d1, d2, d3, world axes"
+    variables["tube_frame"] = _variable("tube_station axis director", frames, "1", text)
+
+
+def _add_tendons(variables: dict[str, Any], shape: Shape) -> None:
+    tendons = shape.tendons
+    index = np.repeat(np.arange(len(tendons)), [len(tendon.s) for tendon in tendons])
+    variables["tendon_length"] = _variable(
+        "tendon", [t.length for t in tendons], "m", "length from the proximal end of its tube"
+    )
+    variables["tendon_index"] = _variable("tendon_station", index, "1", "tendon of each entry")
+    for name, dims, units, text in (
+        ("s", "tendon_station", "m", "arc length from the guide's exit"),
+        ("path", "tendon_station axis", "m", "path of the tendon"),
+        ("tension", "tendon_station", "N", "tension"),
+    ):
+        values = np.concatenate([getattr(tendon, name) for tendon in tendons])
+        variables[f"tendon_{name}"] = _variable(dims, values, units, text)
+
+
+def _attributes(shape: Shape) -> dict[str, Any]:
+    return {
+        "title": f"shape of {shape.robot.name or 'a robot'}",
+        "source": "tactr",
+        "status": shape.status.value,
+        "message": shape.message,
+        "residual": float(shape.residual),
+        "iterations": int(shape.iterations),
+        "discretisation_error_m": float(shape.discretisation_error),
+        "solve_time_s": float(shape.solve_time),
+        "robot": _robot_text(shape),
+    }
+
+
+def _robot_text(shape: Shape) -> str:
+    from tactr.io.files import dumps
+
+    try:
+        return dumps(shape.robot)
+    except RobotError as error:
+        return f"# not stored: {error}\n"

@@ -1,0 +1,172 @@
+"""`tactr solve`: its report, its JSON, its files, and what it says when something is wrong."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import tactr
+from tactr import examples
+
+
+def test_without_a_file_it_solves_two_tubes(run):
+    code, out, err = run("solve")
+    assert (code, err) == (0, "")
+    assert out.startswith("two_tube_90: 2 tubes, 2 tendons, no loads")
+    for words in (
+        "position (mm)",
+        "direction",
+        "tension (N)",
+        "converged in",
+        "residual",
+        "error at the tip",
+        "assumed",
+    ):
+        assert words in out
+    tip = tactr.solve(examples.load("two_tube_90")).tip_position
+    row = next(line for line in out.splitlines() if line.startswith("position"))
+    assert [float(word) for word in row.split()[2:]] == pytest.approx(1e3 * tip, abs=5e-4)
+
+
+def test_a_file(run, tmp_path):
+    path = tmp_path / "robot.yaml"
+    path.write_text(examples.path("helical").read_text())
+    code, out, _ = run("solve", str(path))
+    assert code == 0
+    assert out.startswith("helical: 2 tubes, 1 tendon")
+
+
+def solved(run, *words):
+    code, out, err = run("solve", *words, "--json")
+    assert (code, err) == (0, "")
+    return json.loads(out)
+
+
+def test_json(run):
+    report = solved(run, "three_tube_c")
+    shape = tactr.solve(examples.load("three_tube_c"))
+    assert set(report) == {
+        "robot",
+        "converged",
+        "status",
+        "message",
+        "residual",
+        "iterations",
+        "discretisation_error_m",
+        "solve_time_s",
+        "tip",
+        "tubes",
+        "tendons",
+        "transition_points",
+        "centreline",
+    }
+    assert report["converged"] is True
+    assert report["tip"]["position_m"] == shape.tip_position.tolist()
+    assert report["tip"]["quaternion_wxyz"] == shape.tip_quaternion.tolist()
+    assert report["centreline"]["position_m"] == shape.centreline.tolist()
+    assert [tube["name"] for tube in report["tubes"]] == ["outer", "middle", "inner"]
+    assert report["tubes"][2]["tip_position_m"] == pytest.approx(shape.tip_position, abs=1e-12)
+    assert [point["s_m"] for point in report["transition_points"]] == pytest.approx([0.140, 0.187])
+    assert report["transition_points"][0]["position_m"] == report["tubes"][0]["tip_position_m"]
+    assert [tendon["tension_N"] for tendon in report["tendons"]] == [3.0, 2.0, 0.5]
+    assert report["tendons"][0]["length_m"] == shape.tendons[0].length
+
+
+def test_actuation(run):
+    wanted = tactr.solve(
+        examples.load("two_tube_90"),
+        tension={"outer": 1.5, "inner": 0.5},
+        rotation={"inner": np.pi / 2},
+        translation={"inner": -0.02},
+    )
+    report = solved(
+        run,
+        "two_tube_90",
+        "--tension",
+        "outer=1.5",
+        "inner=500 mN",
+        "--rotation",
+        "inner=90 deg",
+        "--translation",
+        "inner=-20 mm",
+    )
+    assert report["tip"]["position_m"] == pytest.approx(wanted.tip_position, abs=1e-12)
+
+
+def test_actuation_in_order(run):
+    named = solved(run, "two_tube_90", "--tension", "outer=1", "inner=2 N")
+    assert solved(run, "--tension", "1", "2")["tip"] == named["tip"]
+    assert solved(run, "--tension", "1", "--tension", "2")["tip"] == named["tip"]
+
+
+def test_tolerance(run):
+    assert solved(run, "helical", "--tolerance", "1 nm")["discretisation_error_m"] < 1e-9
+
+
+def test_files(run, tmp_path):
+    code, out, _ = run("solve", "--save", str(tmp_path / "a.nc"), "--plot", str(tmp_path / "a.png"))
+    assert code == 0
+    assert f"wrote {tmp_path / 'a.nc'}" in out
+    assert f"wrote {tmp_path / 'a.png'}" in out
+    assert xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf").attrs["status"] == "converged"
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["nothing"], "neither a file nor a built-in example"),
+        (["two_tubes_90"], "did you mean two_tube_90?"),
+        (["missing.yaml"], "missing.yaml: no such file"),
+        (
+            ["--tension", "inne=2"],
+            "no tendon 'inne'; expected one of 'outer', 'inner' (did you mean 'inner'?)",
+        ),
+        (["--tension", "inner=-2"], "-2 N"),
+        (["--tension", "inner=2 mm"], '--tension: "2 mm" is a length; expected a force'),
+        (["--tension", "inner=x"], "does not start with a number"),
+        (["--tension", "1"], "1 values for 2 tendons"),
+        (["--tension", "1", "inner=2"], "'1' has no name; expected name=value"),
+        (["--tension", "inner=1", "inner=2"], "'inner' is given twice"),
+        (["--tension", "inner=1", "two_tube_90"], "a FILE goes before the options"),
+        (["--rotation", "inner=90"], '--rotation: "90" has no unit; expected an angle such as "30 deg"'),
+        (["--translation", "inner=20 mm"], "tubes[1].translation"),
+        (["--translation", "inner=-1 m"], "leaves nothing of 'inner' outside the guide"),
+        (["--tolerance", "1"], '--tolerance: "1" has no unit'),
+        (["--tolerance", "-1 um"], "tolerance"),
+        (["--save", "a.csv"], "--save: a.csv has the ending '.csv'; expected one of .nc"),
+        (["--plot", "a.txt"], "--plot: a.txt has the ending '.txt'"),
+        (["--plot", "missing/a.png"], "--plot: there is no folder missing"),
+        (["--colour"], "--colour"),
+        (["--tension"], "--tension"),
+    ],
+)
+def test_mistakes(run, words, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run("solve", *words)
+    assert (code, out) == (2, "")
+    assert message in err
+    assert err.startswith("tactr:")
+    assert "Traceback" not in err
+
+
+def test_no_equilibrium(run):
+    code, out, err = run("solve", "till_straight", "--tension", "tendon=1e9")
+    assert (code, out) == (2, "")
+    assert "no equilibrium was found" in err
+    assert "check its unit and size" in err
+
+
+def test_no_equilibrium_as_json(run):
+    code, out, err = run("solve", "till_straight", "--tension", "tendon=1e9", "--json")
+    assert code == 2
+    report = json.loads(out)
+    assert report["converged"] is False
+    assert "tip" not in report
+    assert report["message"] in err
+
+
+def test_no_equilibrium_writes_nothing(run, tmp_path):
+    run("solve", "till_straight", "--tension", "tendon=1e9", "--save", str(tmp_path / "a.nc"))
+    assert list(tmp_path.iterdir()) == []
