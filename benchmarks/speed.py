@@ -3,8 +3,8 @@
     python benchmarks/speed.py [--seconds 1.0]
 
 Prints the machine and, for three robots, the median and the least time of many solves: warm from a
-neighbouring shape (tensions 5 % and rotations 0.05 rad away) and cold, in the kernel (Shape.solve_time) and from Python
-(Prepared.solve with arrays, and the tip). The targets beside them are those of the project.
+neighbouring shape (tensions 5 % and rotations 0.05 rad away) and cold, in the kernel
+(Shape.solve_time) and from Python (Prepared.solve with arrays, and the tip). The targets are the project's.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Row(NamedTuple):
 
 
 def three_tubes() -> Robot:
-    """Three precurved tubes turned against each other; straight tendons on the outer two, a helix on the inner."""
+    """Three precurved tubes turned apart; straight tendons on the outer two, a helix on the inner."""
     rows = [
         (0.14, 1.35e-3, 1.07e-3, 65e9, 24.4e9, (2.0, 0.0, 0.0), 0.0),
         (0.187, 1.0e-3, 0.8e-3, 45e9, 16.91e9, (4.0, 1.0, 0.0), 0.6),

@@ -42,10 +42,7 @@ class SectionSolver {
     bool solve(const Section<P>& section, const P& s, const T* z, const Packing& packing, Strains& e) {
         place_tendons(section, s);
         for (int a = 0; a < section.active_count; ++a) sine_cosine(z[3 * a], sine[a], cosine[a]);
-        if (!find_strains(section, z, packing, e)) {
-            note_failure(section);
-            return false;
-        }
+        if (!find_strains(section, z, packing, e)) return false;
         for (int a = 0; a < section.active_count; ++a)
             if (1.0 + e.eta[a] < least_stretch) least_stretch = 1.0 + e.eta[a];
         carry(section, z, packing, e);
@@ -82,7 +79,8 @@ class SectionSolver {
         }
     }
 
-    void note_failure(const Section<P>& section) {
+    /// A section that is slow to solve may have a tendon bent to no length: keeps the least |q| met on the way.
+    void watch_tendons(const Section<P>& section) {
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h)
             if (value(tendons[h].tension) > 0.0) shortest_tendon = smaller(shortest_tendon, tendon_tangents[h].speed);
     }
@@ -170,6 +168,7 @@ class SectionSolver {
                 worst_residual = larger(worst_residual, worst);
                 return finish(section, total, tube, e);
             }
+            if (iteration > 8) watch_tendons(section);
             if (!(worst < last) && !(energy(section, z, packing, e) < energy(section, z, packing, from))) {
                 if (fraction < 1e-3) return false;
                 fraction *= 0.5;

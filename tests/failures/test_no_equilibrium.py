@@ -102,7 +102,7 @@ def test_what_is_no_geometry_can_be_read(failed: Shape) -> None:
     assert failed.iterations >= 0
 
 
-@pytest.mark.parametrize("tension", [30.0, 1e3, 1e6])
+@pytest.mark.parametrize("tension", [300.0, 1e3, 1e6])
 def test_a_huge_tension_is_named_as_the_cause(tension: float) -> None:
     shape = tactr.solve(rod(tension))
     assert shape.status in (Status.KINKED, Status.COLLAPSED)
@@ -111,6 +111,15 @@ def test_a_huge_tension_is_named_as_the_cause(tension: float) -> None:
 
 def test_a_soft_tube_under_a_fitting_tension_has_a_shape() -> None:
     assert tactr.solve(rod(1e-6, material=SOFT)).converged
+
+
+@pytest.mark.parametrize("tension", [60.0, 80.0, 87.0])
+def test_a_bend_short_of_the_tendons_offset_is_found(tension: float) -> None:
+    """The rod closes several circles; the curvature is T r / EI, up to 1 / r at 88.36 N."""
+    shape = tactr.solve(rod(tension))
+    k = shape.robot.tubes[0].stiffness
+    assert shape.converged, shape.message
+    assert shape.tubes[0].u[:, 1] == pytest.approx(tension * 0.005 / k.EI_y, rel=1e-6)
 
 
 def test_the_tube_is_crushed() -> None:

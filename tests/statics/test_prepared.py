@@ -118,7 +118,11 @@ def test_number_in_place_of_a_tension_profile() -> None:
     expected = tactr.solve(rod())
     assert_same(prepared.solve(tension={"t": 1.0}), expected)
     assert_same(prepared.solve(tension=np.array([1.0, 0.0])), expected)
-    assert_same(prepared.solve(tension={"u": 0.0}), tactr.solve(rod(), tension={"t": PROFILE}))
+
+
+def test_a_profile_stays_when_another_tension_changes() -> None:
+    prepared = Prepared(rod().with_actuation(tension={"t": PROFILE}))
+    assert_same(prepared.solve(tension={"u": 0.5}), tactr.solve(rod(), tension=[PROFILE, 0.5]))
 
 
 def test_a_flat_profile_is_a_tension() -> None:

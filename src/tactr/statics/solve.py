@@ -10,7 +10,7 @@ import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
-from tactr.robot import Robot, Tendon, TensionProfile
+from tactr.robot import Robot, Tendon, TensionProfile, Tube
 from tactr.robot._consistency import LEAST_REACH
 from tactr.robot.load import Load
 from tactr.robot.robot import Numbers, Tensions
@@ -71,7 +71,7 @@ class Prepared:
         self._translation = _translations(robot)
         profiled = [isinstance(tendon.tension, TensionProfile) for tendon in robot.tendons]
         self._least_tension = np.where(profiled, np.inf, 0.0)  # a profile is not replaced by a number unseen
-        self._least_translation = np.array([LEAST_REACH - tube.length for tube in robot.tubes])
+        self._least_translation = np.array([-_innermost_place(robot, tube) for tube in robot.tubes])
 
     def __repr__(self) -> str:
         return f"<Prepared {self.robot!r}, tolerance {self.tolerance:.1e} m>"
@@ -91,15 +91,16 @@ class Prepared:
             and self._is_plain(translation, self._translation, self._least_translation, 0.0)
         )
         given = {"tension": tension, "rotation": rotation, "translation": translation}
+        base = self.robot
         if not plain:
-            robot = self.robot.with_actuation(**given)
-            if any(map(_differs_in_profile, self.robot.tendons, robot.tendons)):
-                other = Prepared(robot, tolerance=self.tolerance, stations=self._given_stations)
+            base = self.robot.with_actuation(**given)
+            if any(map(_differs_in_profile, self.robot.tendons, base.tendons)):
+                other = Prepared(base, tolerance=self.tolerance, stations=self._given_stations)
                 return other.solve(guess=guess)
             given = {
-                "tension": _tensions(robot),
-                "rotation": _rotations(robot),
-                "translation": _translations(robot),
+                "tension": _tensions(base),
+                "rotation": _rotations(base),
+                "translation": _translations(base),
             }
         own = {"tension": self._tension, "rotation": self._rotation, "translation": self._translation}
         arrays = {name: own[name] if array is None else np.array(array) for name, array in given.items()}
@@ -118,8 +119,8 @@ class Prepared:
         return Shape(
             self._core,
             solution,
-            base=self.robot,
-            actuation={name: array for name, array in arrays.items() if array is not own[name]},
+            base=base,
+            actuation={name: array for name, array in arrays.items() if plain and array is not own[name]},
             tolerance=self.tolerance,
             residual_tolerance=self.residual_tolerance,
             stations=self._given_stations if moved else self._stations,
@@ -150,6 +151,12 @@ def _rotations(robot: Robot) -> np.ndarray:
 
 def _translations(robot: Robot) -> np.ndarray:
     return np.array([tube.translation for tube in robot.tubes], dtype=float)
+
+
+def _innermost_place(robot: Robot, tube: Tube) -> float:
+    """Arc length of a tube, m, that has to stay outside the guide: its tip, or where a tendon ends."""
+    ends = [tendon.end for tendon in robot.tendons if tendon.tube == tube.name and tendon.end is not None]
+    return min([tube.length, *ends]) - LEAST_REACH
 
 
 def _differs_in_profile(own: Tendon, other: Tendon) -> bool:
