@@ -111,7 +111,7 @@ class Continuation {
         double t = t_ + step * tangent_[n_];
         scale(t);
         solution_.free_end = end;
-        newton_.add_steps(solution_);
+        if (!newton_.add_steps(solution_)) return false;
         if (!correct(step, end, t) || !find_tangent()) return reset(from_tangent);
         double cosine = 0.0;
         for (int i = 0; i <= n_; ++i) cosine += tangent_[i] * from_tangent[i];

@@ -52,10 +52,16 @@ class NewtonSolver {
         add_steps(solution);
     }
 
-    /// One plain march adds steps to the mesh where its error asks for them.
-    void add_steps(Solution& solution) {
+    /// One plain march adds steps to the mesh where its error asks for them. False: it found no end to them, far from
+    /// any solution perhaps; the mesh is then left as it was.
+    bool add_steps(Solution& solution) {
+        const std::vector<int> before = solution.mesh.steps;
+        const int most = MOST_GROWTH * (solution.mesh.total() + 8);
         BaseState<double> base;
-        plain_march(solution, actuation, base);
+        if (plain_march(solution, actuation, base) && solution.mesh.total() <= most) return true;
+        solution.mesh.steps = before;
+        solution.mesh.fit();
+        return false;
     }
 
     /// As choose_mesh; then moves the free end by the angles at which that march missed the base.
@@ -148,6 +154,7 @@ class NewtonSolver {
     FreeEnd<double> marched_;  // free end of the last march that filled the mesh
     bool full_ = false, strict_ = false;  // how the last march was made
 
+    static constexpr int MOST_GROWTH = 8;
     static constexpr double MESH_SLACK = 5.0;  // the sum over a section's states overrates its effect on the tip
 
     static constexpr double LEAST_STRETCH = 0.2;  // linear elasticity means nothing at such compression
