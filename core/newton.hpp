@@ -221,9 +221,10 @@ class NewtonSolver {
         march.slope_lanes = shooting.unknowns;
         tell_shift(solution);
         if (!march.run(end, solution.mesh)) {
-            solution.shortest_tendon = march.solver.shortest_tendon;
+            solution.shortest_tendon = smaller(solution.shortest_tendon, march.solver.shortest_tendon);
             return false;
         }
+        solution.shortest_tendon = march.solver.shortest_tendon;
         T r[MAX_UNKNOWNS];
         shooting.residual(march.base, actuation.rotation, r);
         for (int i = 0; i < shooting.unknowns; ++i) {

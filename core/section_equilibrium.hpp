@@ -12,7 +12,7 @@
 namespace tactr {
 
 constexpr double SECTION_TOLERANCE = 1e-10;  // scaled residual of every equation of a section
-constexpr int SECTION_ITERATIONS = 60;
+constexpr int SECTION_ITERATIONS = 100;
 
 template <class E>
 struct StrainsOf {

@@ -23,7 +23,7 @@ class SectionSolver {
     bool strict = true;  // false: on the way to a strict march, sections may be solved roughly
     double worst_residual = 0.0;
     double least_stretch = 1.0;
-    double shortest_tendon = 1.0;  // least |q| of a pulled tendon where a section had no equilibrium: 0 at a kink
+    double shortest_tendon = 1.0;  // least |q| of a pulled tendon so far: 0 at a kink
 
     // The section at the last solve, by position among the tubes present.
     StrainsOf<T> strains;
@@ -43,6 +43,7 @@ class SectionSolver {
         place_tendons(section, s);
         for (int a = 0; a < section.active_count; ++a) sine_cosine(z[3 * a], sine[a], cosine[a]);
         if (!find_strains(section, z, packing, e)) return false;
+        watch_tendons(section);
         for (int a = 0; a < section.active_count; ++a)
             if (1.0 + e.eta[a] < least_stretch) least_stretch = 1.0 + e.eta[a];
         carry(section, z, packing, e);
@@ -79,7 +80,7 @@ class SectionSolver {
         }
     }
 
-    /// A section that is slow to solve may have a tendon bent to no length: keeps the least |q| met on the way.
+    /// Keeps the least |q|, at solutions and on the way to slow ones: a tendon bent to no length stops everything.
     void watch_tendons(const Section<P>& section) {
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h)
             if (value(tendons[h].tension) > 0.0) shortest_tendon = smaller(shortest_tendon, tendon_tangents[h].speed);
@@ -168,9 +169,9 @@ class SectionSolver {
                 worst_residual = larger(worst_residual, worst);
                 return finish(section, total, tube, e);
             }
-            if (iteration > 8) watch_tendons(section);
+            if (iteration > 2) watch_tendons(section);
             if (!(worst < last) && !(energy(section, z, packing, e) < energy(section, z, packing, from))) {
-                if (fraction < 1e-3) return false;
+                if (fraction < 1e-7) return false;
                 fraction *= 0.5;
                 move_strains(section, from, step, fraction, e);
                 continue;

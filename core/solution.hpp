@@ -25,7 +25,7 @@ struct Solution {
     double section_residual = std::numeric_limits<double>::max();
     double discretisation_error = std::numeric_limits<double>::max();
     double least_stretch = 1.0;
-    double shortest_tendon = 1.0;  // |q| where a section had no equilibrium; near 0: a tendon at the centre of curvature
+    double shortest_tendon = 1.0;  // least |q| of the last marches; near 0: a tendon at the centre of curvature
     double base_determinant = 0.0;  // of d(base)/d(free end)
     bool used_continuation = false;
     double jacobian[MAX_UNKNOWNS][MAX_UNKNOWNS] = {};  // d(base)/d(free end), last computed
