@@ -69,7 +69,7 @@ class Continuation {
         constexpr double H = 1e-6;
         scale(t);
         solution_.free_end = at;
-        if (!newton_.evaluate(solution_, false, true)) return false;
+        if (!newton_.evaluate(solution_, NewtonSolver::Kind::firm)) return false;
         double ahead[MAX_UNKNOWNS];
         scale(t + H);
         const bool found = newton_.plain_residual(at, solution_.mesh, ahead);
@@ -172,7 +172,7 @@ class Continuation {
         newton_.actuation = target_;
         const FreeEnd<double> expected = solution_.free_end;
         newton_.add_steps(solution_);
-        return newton_.newton(solution_, ON_CURVE, false) &&
+        return newton_.newton(solution_, ON_CURVE, NewtonSolver::Kind::firm) &&
                newton_.shooting.distance(expected, solution_.free_end) < 2.0 * newton_.norm(step) + 1e-3;
     }
 };

@@ -3,6 +3,7 @@
 #pragma once
 #include <cmath>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "dense.hpp"
@@ -161,8 +162,8 @@ class March {
 
     /// lambda t_3 and lambda (r x t)_3 of a tendon in the section solved last.
     void axial_part(const TendonState<P>& tendon, T& force, T& moment) const {
-        T n[3] = {T(0.0), T(0.0), T(0.0)}, m[3] = {T(0.0), T(0.0), T(0.0)}, speed, t[3], r[2];
-        add_tendon(tendon, solver.cosine[tendon.slot], solver.sine[tendon.slot], solver.strains, n, m, speed, t, r);
+        T n[3] = {T(0.0), T(0.0), T(0.0)}, m[3] = {T(0.0), T(0.0), T(0.0)}, inverse, t[3], r[2];
+        add_tendon(tendon, solver.cosine[tendon.slot], solver.sine[tendon.slot], solver.strains, n, m, inverse, t, r);
         force = n[2];
         moment = m[2];
     }
@@ -390,14 +391,11 @@ class March {
     }
 
     bool run_stages(const Section<P>& section, const P& s, const P& h, const T* before, Mesh& mesh, size_t first, bool warm) {
-        static constexpr SparseRow ROWS[dp8::STAGES] = {
-            {dp8::A[0], 0}, {dp8::A[1], 1}, {dp8::A[2], 2}, {dp8::A[3], 3}, {dp8::A[4], 4},   {dp8::A[5], 5},
-            {dp8::A[6], 6}, {dp8::A[7], 7}, {dp8::A[8], 8}, {dp8::A[9], 9}, {dp8::A[10], 10}, {dp8::A[11], 11}};
         for (int i = 0; i < dp8::STAGES; ++i) {
-            if (i > 0) add_stages(ROWS[i], h, before, z);
+            to_stage(i, h, before);
             Strains& e = mesh.strains[first + i];
             if (!warm) {
-                e = last_;
+                copy_strains(last_, section.active_count, e);
             } else if (mesh.unknowns > 0) {
                 shift_strains(section, mesh, first + i, e);
             }
@@ -405,35 +403,54 @@ class March {
             if (options.path) add_lengths(section, -value(h) * dp8::B[i]);
             if constexpr (LANES > 0)
                 if (slope_lanes > 0) keep_slopes(section, mesh, first + i);
-            last_ = e;
+            if (!warm || i + 1 == dp8::STAGES) copy_strains(e, section.active_count, last_);
         }
         return true;
     }
 
-    /// out = before + h * sum of weight * k.
-    void add_stages(const SparseRow& row, const P& h, const T* before, T* out) const {
+    /// z at stage i (the step's end: i = STAGES) from the rates at the stages before.
+    void to_stage(int i, const P& h, const T* before) {
+        switch (i) {
+            case 1: return add_rates<1>(h, before);
+            case 2: return add_rates<2>(h, before);
+            case 3: return add_rates<3>(h, before);
+            case 4: return add_rates<4>(h, before);
+            case 5: return add_rates<5>(h, before);
+            case 6: return add_rates<6>(h, before);
+            case 7: return add_rates<7>(h, before);
+            case 8: return add_rates<8>(h, before);
+            case 9: return add_rates<9>(h, before);
+            case 10: return add_rates<10>(h, before);
+            case 11: return add_rates<11>(h, before);
+            case dp8::STAGES: return add_rates<dp8::STAGES>(h, before);
+            default: return;
+        }
+    }
+
+    /// z = before + h * sum of weight * k, unrolled over the nonzero weights.
+    template <int I>
+    void add_rates(const P& h, const T* before) {
+        static constexpr SparseRow ROW(I == dp8::STAGES ? dp8::B : dp8::A[I], I);
+        const int count = I < dp8::STAGES ? packing.fed_back : packing.count;
+        add_rates_of<ROW>(h, before, count, std::make_integer_sequence<int, ROW.count>());
+    }
+
+    template <const SparseRow& ROW, int... J>
+    void add_rates_of(const P& h, const T* before, int count, std::integer_sequence<int, J...>) {
         if constexpr (std::is_same_v<P, double>) {
-            const int width = packing.count * (LANES + 1);
+            const int width = count * (LANES + 1);
             const double* from = reinterpret_cast<const double*>(before);
-            double* to = reinterpret_cast<double*>(out);
-            for (int n = 0; n < width; ++n) to[n] = from[n];
-            for (int j = 0; j < row.count; ++j) {
-                const double w = h * row.weight[j];
-                const double* rate = reinterpret_cast<const double*>(k[row.stage[j]]);
-                for (int n = 0; n < width; ++n) to[n] += w * rate[n];
-            }
+            double* to = reinterpret_cast<double*>(z);
+            const double* rates = reinterpret_cast<const double*>(k);
+            constexpr int STRIDE = STATES * (LANES + 1);
+            for (int n = 0; n < width; ++n) to[n] = from[n] + h * ((rates[ROW.stage[J] * STRIDE + n] * ROW.weight[J]) + ...);
         } else {
-            for (int n = 0; n < packing.count; ++n) {
-                T sum(0.0);
-                for (int j = 0; j < row.count; ++j) sum += k[row.stage[j]][n] * row.weight[j];
-                out[n] = before[n] + sum * h;
-            }
+            for (int n = 0; n < count; ++n) z[n] = before[n] + ((k[ROW.stage[J]][n] * ROW.weight[J]) + ...) * h;
         }
     }
 
     void advance(const P& h, const T* before, double& error) {
-        static constexpr SparseRow ROW(dp8::B, dp8::STAGES);
-        add_stages(ROW, h, before, z);
+        to_stage(dp8::STAGES, h, before);
         if (error_weight) add_error(value(h), error);
         if (packing.frame >= 0 && packing.path >= 0) normalise(&z[packing.frame]);
     }
@@ -466,7 +483,7 @@ class March {
 
     void add_lengths(const Section<P>& section, double weight) {
         for (int h = section.hosted.begin; h < section.hosted.end; ++h)
-            tendon_length[layout.hosted[h].tendon] += weight * solver.tendon_tangents[h - section.hosted.begin].speed;
+            tendon_length[layout.hosted[h].tendon] += weight / solver.tendon_tangents[h - section.hosted.begin].inverse;
     }
 
     void shift_strains(const Section<P>& section, const Mesh& mesh, size_t stage, Strains& e) const {

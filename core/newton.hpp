@@ -42,7 +42,7 @@ class NewtonSolver {
         solution.mesh = guess.mesh;
         marched_ = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
-        if (shooting.unknowns > 0) chord_step(guess, solution);
+        if (shooting.unknowns > 0) approach(guess, solution);
         return true;
     }
 
@@ -83,25 +83,31 @@ class NewtonSolver {
         if (plain_march(solution, unloaded, base)) shooting.upright(base, actuation.rotation[0], solution.free_end);
     }
 
-    /// One march with derivatives at the given free end. full: with path and error estimate. strict: every section to
-    /// its tolerance.
-    bool evaluate(Solution& solution, bool full, bool strict) {
-        ++solution.iterations;
+    /// How a march is made. rough: derivatives, sections solved roughly. firm: derivatives, every section to its
+    /// tolerance. draft: as rough, with path and error estimate too. exact: as firm, with path and error estimate.
+    /// check: as exact but without derivatives; those of the last draft or exact march, close by, are kept.
+    enum class Kind { rough, firm, draft, exact, check };
+
+    bool evaluate(Solution& solution, Kind kind) {
         solution.steps_marched += solution.mesh.total();
-        full_ = full;
-        strict_ = strict;
-        return with_lanes(shooting.unknowns + (full ? 1 : 0), [&](auto lanes) { return evaluate_lanes<decltype(lanes)::value>(solution, full, strict); });
+        ++solution.iterations;
+        kind_ = kind;
+        if (kind == Kind::check) return check(solution);
+        const int lanes = shooting.unknowns + (has_path(kind) ? 1 : 0);
+        return with_lanes(lanes, [&](auto count) { return evaluate_lanes<decltype(count)::value>(solution, kind); });
     }
 
-    /// Newton with backtracking on the largest residual. True: below tolerance, with path and error estimate read.
-    bool newton(Solution& solution, double tolerance, bool full_at_end) {
-        const bool at_once = full_at_end && shooting.unknowns == 0;
-        if (!evaluate(solution, at_once, at_once)) return fail(solution, Status::no_equilibrium);
+    /// Newton with backtracking on the largest residual. first: kind of the first march; the last is exact or a check.
+    /// True: below tolerance.
+    bool newton(Solution& solution, double tolerance, Kind first) {
+        if (shooting.unknowns == 0) first = Kind::exact;
+        if (!evaluate(solution, first)) return fail(solution, Status::no_equilibrium);
         for (int iteration = 0; iteration < settings.max_iterations; ++iteration) {
             const double size = solution.base_residual;
             if (size <= tolerance) {
-                if (!full_at_end || (full_ && strict_)) return true;
-                if (!evaluate(solution, true, true)) return fail(solution, Status::no_equilibrium);
+                if (kind_ == Kind::exact || kind_ == Kind::check) return true;
+                if (!evaluate(solution, kind_ == Kind::draft ? Kind::check : Kind::exact))
+                    return fail(solution, Status::no_equilibrium);
                 continue;
             }
             if (solution.steps_marched > settings.max_steps) break;
@@ -111,15 +117,16 @@ class NewtonSolver {
                 for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
             }
             if (solve_dense(shooting.unknowns, A, step) == 0.0) break;
-            if (!backtrack(solution, step, size, full_at_end)) break;
+            if (!backtrack(solution, step, size)) break;
         }
         return fail(solution, Status::stalled);
     }
 
     /// Newton, then finer steps until the discretisation error is below tolerance.
-    bool polish(Solution& solution) {
+    bool polish(Solution& solution, Kind first = Kind::rough) {
         for (int round = 0; round < 8; ++round) {
-            if (!newton(solution, settings.residual_tolerance, true)) return false;
+            if (!newton(solution, settings.residual_tolerance, first)) return false;
+            first = Kind::rough;
             if (solution.discretisation_error <= allowed_error(solution) || settings.fixed_steps > 0) {
                 if (solution.least_stretch < LEAST_STRETCH) return fail(solution, Status::collapsed);
                 solution.status = Status::converged;
@@ -152,7 +159,11 @@ class NewtonSolver {
 
   private:
     FreeEnd<double> marched_;  // free end of the last march that filled the mesh
-    bool full_ = false, strict_ = false;  // how the last march was made
+    Kind kind_ = Kind::rough;         // of the last march
+    double since_derivatives_ = 0.0;  // rad: way from the last march with path and derivatives
+
+    static bool has_path(Kind kind) { return kind == Kind::draft || kind == Kind::exact; }
+    static bool is_firm(Kind kind) { return kind == Kind::firm || kind == Kind::exact || kind == Kind::check; }
 
     static constexpr int MOST_GROWTH = 8;
     static constexpr double MESH_SLACK = 5.0;  // the sum over a section's states overrates its effect on the tip
@@ -176,21 +187,20 @@ class NewtonSolver {
     }
 
     /// Steps with the neighbour's derivatives: for the change of the rotations, which needs no march, then for what one
-    /// march without derivatives still misses.
-    void chord_step(const Solution& guess, Solution& solution) {
-        double turned[MAX_UNKNOWNS];
+    /// rough march without derivatives still misses.
+    void approach(const Solution& guess, Solution& solution) {
+        double missed[MAX_UNKNOWNS];
         BaseState<double> met;  // the base the neighbour met: its own rotations, upright
         for (int i = 0; i < robot.tube_count; ++i) met.psi[i] = guess.rotation[i];
         for (int c = 0; c < 4; ++c) met.quaternion[c] = c == 0;
-        shooting.residual(met, actuation.rotation, turned);
-        step_with_neighbour(turned, solution);
+        shooting.residual(met, actuation.rotation, missed);
+        step_with_neighbour(missed, solution);
 
         March<double, double> march(robot, layout, actuation, shooting.newton_options());
         shooting.scale(march);
-        march.solver.strict = false;
+        march.solver.precision = Precision::rough;
         tell_shift(solution);
         if (!march.run(solution.free_end, solution.mesh)) return;
-        double missed[MAX_UNKNOWNS];
         shooting.residual(march.base, actuation.rotation, missed);
         step_with_neighbour(missed, solution);
     }
@@ -206,8 +216,9 @@ class NewtonSolver {
     static constexpr double LONGEST_CHORD = 1.0;  // rad: of a step without derivatives of its own
 
     template <int K>
-    bool evaluate_lanes(Solution& solution, bool full, bool strict) {
+    bool evaluate_lanes(Solution& solution, Kind kind) {
         using T = Dual<K>;
+        const bool full = has_path(kind);
         const MarchOptions options = full ? shooting.full_options() : shooting.newton_options();
         March<T, double> march(robot, layout, actuation, options);
         shooting.scale(march);
@@ -217,14 +228,14 @@ class NewtonSolver {
             march.error_weight = shooting.error_weight;
             march.error_lane = shooting.unknowns;
         }
-        march.solver.strict = strict;
+        if (!is_firm(kind)) march.solver.precision = Precision::rough;
         march.slope_lanes = shooting.unknowns;
         tell_shift(solution);
         if (!march.run(end, solution.mesh)) {
             solution.shortest_tendon = smaller(solution.shortest_tendon, march.solver.shortest_tendon);
             return false;
         }
-        solution.shortest_tendon = march.solver.shortest_tendon;
+        note(solution, march);
         T r[MAX_UNKNOWNS];
         shooting.residual(march.base, actuation.rotation, r);
         for (int i = 0; i < shooting.unknowns; ++i) {
@@ -236,10 +247,30 @@ class NewtonSolver {
             }
         }
         solution.base_residual = norm(residual);
-        solution.section_residual = march.solver.worst_residual;
-        solution.least_stretch = march.solver.least_stretch;
         if (full) read_tip(solution, march, end, r);
         return true;
+    }
+
+    bool check(Solution& solution) {
+        March<double, double> march(robot, layout, actuation, shooting.full_options());
+        shooting.scale(march);
+        march.solver.precision = Precision::checked;
+        tell_shift(solution);
+        if (!march.run(solution.free_end, solution.mesh)) return false;
+        shooting.residual(march.base, actuation.rotation, residual);
+        solution.base_residual = norm(residual);
+        if (!std::isfinite(solution.base_residual)) return false;
+        note(solution, march);
+        shooting.tip_pose(solution.free_end, march.base, actuation.rotation[0], solution.tip_position, solution.tip_quaternion);
+        solution.tendon_length = march.tendon_length;
+        return true;
+    }
+
+    template <class M>
+    static void note(Solution& solution, const M& march) {
+        solution.shortest_tendon = march.solver.shortest_tendon;
+        solution.section_residual = march.solver.worst_residual;
+        solution.least_stretch = march.solver.least_stretch;
     }
 
     template <class M, class T>
@@ -272,26 +303,34 @@ class NewtonSolver {
 
     std::vector<double> section_error_;
 
-    bool backtrack(Solution& solution, double* step, double size, bool full_at_end) {
+    bool backtrack(Solution& solution, double* step, double size) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
         constexpr double ROUGH = 1e-3;   // rad
         const FreeEnd<double> from = solution.free_end;
-        const bool strict_before = strict_;
+        const bool rough_before = !is_firm(kind_);
         const double longest = norm(step);
         double fraction = longest > LONGEST ? LONGEST / longest : 1.0;
         for (int attempt = 0; attempt < 10; ++attempt, fraction *= 0.4) {
             shooting.move(from, step, fraction, solution.free_end);
-            const bool near = fraction == 1.0 && size * size < settings.residual_tolerance;  // Newton squares it
-            const bool strict = near || strict_before;
-            if (!evaluate(solution, near && full_at_end, strict)) continue;
+            const Kind kind = next_kind(fraction, size, longest);
+            if (!evaluate(solution, kind)) continue;
             if (solution.base_residual < (1.0 - 0.1 * fraction) * size) return true;
             // the residual before was only roughly known
-            if (strict && !strict_before && solution.base_residual < ROUGH) return true;
+            if (is_firm(kind) && rough_before && solution.base_residual < ROUGH) return true;
             // at the rounding floor no further decrease can be asked for
             if (size < 10.0 * settings.residual_tolerance && solution.base_residual <= settings.residual_tolerance) return true;
         }
         solution.free_end = from;
         return false;
+    }
+
+    /// Newton squares the residual: where it leads close, derivatives serve as they are from then on.
+    Kind next_kind(double fraction, double size, double step) {
+        constexpr double CLOSE = 1e-2;  // rad
+        if (has_path(kind_)) since_derivatives_ = 0.0;
+        since_derivatives_ += step;
+        if ((has_path(kind_) || kind_ == Kind::check) && since_derivatives_ < CLOSE) return Kind::check;
+        return fraction == 1.0 && size < CLOSE ? Kind::draft : Kind::rough;
     }
 
     /// The embedded estimate is trusted less where a section that matters has a single step.

@@ -21,6 +21,18 @@ struct StrainsOf {
 };
 using Strains = StrainsOf<double>;
 
+/// Only what belongs to the tubes present.
+inline void copy_strains(const Strains& from, int tubes, Strains& to) {
+    to.kx = from.kx;
+    to.ky = from.ky;
+    to.wx = from.wx;
+    to.wy = from.wy;
+    for (int a = 0; a < tubes; ++a) {
+        to.tau[a] = from.tau[a];
+        to.eta[a] = from.eta[a];
+    }
+}
+
 /// A tendon at one cross-section, in its host's material frame.
 template <class P>
 struct TendonState {
@@ -49,13 +61,13 @@ struct TendonTangent {
     double x, y;      // r in R_b
     double t[3];      // unit tangent in R_b
     double stiffness; // tension / |q|
-    double speed;     // |q|
+    double inverse;   // 1 / |q|
 };
 
 /// Adds lambda t and lambda r x t of one tendon to its host's resultants, in R_b.
 template <class T, class P, class E>
 inline void add_tendon(const TendonState<P>& tendon, const T& c, const T& s, const StrainsOf<E>& e, T N[3], T M[3],
-                       T& speed, T direction[3], T r[2]) {
+                       T& inverse, T direction[3], T r[2]) {
     const int i = tendon.slot;
     const E stretch = 1.0 + e.eta[i];
     r[0] = c * tendon.r[0] - s * tendon.r[1];
@@ -64,8 +76,7 @@ inline void add_tendon(const TendonState<P>& tendon, const T& c, const T& s, con
     const T qx = c * tendon.dr[0] - s * tendon.dr[1] + stretch * e.wx - e.tau[i] * r[1];
     const T qy = s * tendon.dr[0] + c * tendon.dr[1] + stretch * e.wy + e.tau[i] * r[0];
     const T qz = stretch + e.kx * r[1] - e.ky * r[0];
-    speed = square_root(qx * qx + qy * qy + qz * qz);
-    const T inverse = T(1.0) / speed;
+    inverse = T(1.0) / square_root(qx * qx + qy * qy + qz * qz);
     direction[0] = qx * inverse;
     direction[1] = qy * inverse;
     direction[2] = qz * inverse;
@@ -190,34 +201,55 @@ struct SectionFactor {
 
     /// Solves in place for L right-hand sides. In: total (Q, S), per tube (M_3, N_3). Out: (kx, ky, wx, wy), (tau, eta).
     template <int L>
-    void solve(double total[4][L], double tube[MAX_TUBES][2][L]) const {
+    void solve(double (*__restrict total)[L], double (*__restrict tube)[2][L]) const {
         if (!guided) {
+            double x[4][L];
+            for (int r = 0; r < 4; ++r)
+                for (int l = 0; l < L; ++l) x[r][l] = total[r][l];
             for (int i = 0; i < count; ++i)
-                for (int r = 0; r < 4; ++r)
-                    for (int l = 0; l < L; ++l)
-                        total[r][l] -= lift[i][r][0] * tube[i][0][l] + lift[i][r][1] * tube[i][1][l];
-            for (int r = 1; r < 4; ++r)
-                for (int k = 0; k < r; ++k)
-                    for (int l = 0; l < L; ++l) total[r][l] -= lu[r][k] * total[k][l];
-            for (int r = 3; r >= 0; --r)
-                for (int l = 0; l < L; ++l) {
-                    for (int k = r + 1; k < 4; ++k) total[r][l] -= lu[r][k] * total[k][l];
-                    total[r][l] *= pivot[r];
+                for (int r = 0; r < 4; ++r) {
+                    const double f = lift[i][r][0], g = lift[i][r][1];
+                    for (int l = 0; l < L; ++l) x[r][l] -= f * tube[i][0][l] + g * tube[i][1][l];
                 }
+            eliminated(x);
             for (int i = 0; i < count; ++i)
-                for (int a = 0; a < 2; ++a)
-                    for (int k = 0; k < 4; ++k)
-                        for (int l = 0; l < L; ++l) tube[i][a][l] -= coupling[i][a][k] * total[k][l];
+                for (int a = 0; a < 2; ++a) {
+                    const double *c = coupling[i][a], c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3];
+                    for (int l = 0; l < L; ++l)
+                        tube[i][a][l] -= (c0 * x[0][l] + c1 * x[1][l]) + (c2 * x[2][l] + c3 * x[3][l]);
+                }
+            for (int r = 0; r < 4; ++r)
+                for (int l = 0; l < L; ++l) total[r][l] = x[r][l];
         }
-        for (int i = 0; i < count; ++i)
+        for (int i = 0; i < count; ++i) {
+            const double a = inverse[i][0][0], b = inverse[i][0][1], c = inverse[i][1][0], d = inverse[i][1][1];
             for (int l = 0; l < L; ++l) {
                 const double m = tube[i][0][l], n = tube[i][1][l];
-                tube[i][0][l] = inverse[i][0][0] * m + inverse[i][0][1] * n;
-                tube[i][1][l] = inverse[i][1][0] * m + inverse[i][1][1] * n;
+                tube[i][0][l] = a * m + b * n;
+                tube[i][1][l] = c * m + d * n;
             }
+        }
     }
 
   private:
+    /// Forward and backward substitution.
+    template <int L>
+    void eliminated(double (&x)[4][L]) const {
+        for (int r = 1; r < 4; ++r)
+            for (int k = 0; k < r; ++k) {
+                const double f = lu[r][k];
+                for (int l = 0; l < L; ++l) x[r][l] -= f * x[k][l];
+            }
+        for (int r = 3; r >= 0; --r) {
+            for (int k = r + 1; k < 4; ++k) {
+                const double f = lu[r][k];
+                for (int l = 0; l < L; ++l) x[r][l] -= f * x[k][l];
+            }
+            const double f = pivot[r];
+            for (int l = 0; l < L; ++l) x[r][l] *= f;
+        }
+    }
+
     /// Gaussian elimination without pivoting: the matrix is positive definite up to strains of the order 1e-4.
     bool eliminate(double A[4][4]) {
         for (int k = 0; k < 4; ++k) {

@@ -13,6 +13,10 @@
 
 namespace tactr {
 
+/// How well a march solves its sections. rough: only to lead to a better march. full: to tolerance, and a linear step
+/// beyond, which keeps the march smooth in its unknowns. checked: to tolerance.
+enum class Precision { rough, checked, full };
+
 template <class T, class P>
 class SectionSolver {
   public:
@@ -20,7 +24,7 @@ class SectionSolver {
     static constexpr int WIDTH = LANES > 0 ? LANES : 1;
 
     double moment_scale = 1.0, force_scale = 1.0;  // of the residual
-    bool strict = true;  // false: on the way to a strict march, sections may be solved roughly
+    Precision precision = Precision::full;
     double worst_residual = 0.0;
     double least_stretch = 1.0;
     double shortest_tendon = 1.0;  // least |q| of a pulled tendon so far: 0 at a kink
@@ -51,19 +55,22 @@ class SectionSolver {
     }
 
   private:
-    // Of loose marches, which only lead to the strict one: below the first residual a linear step ends the solve,
-    // below the second, without derivatives, no step is taken.
-    static constexpr double LINEAR_ENOUGH = 1e-2, CLOSE_ENOUGH = 1e-4;
+    // Of rough marches: below the first residual a linear step ends the solve, below the second, without derivatives, no
+    // step is taken.
+    static constexpr double LINEAR_ENOUGH = LANES == 0 ? 0.1 : 1e-2, CLOSE_ENOUGH = 1e-5;
+    static constexpr double SAME_TANGENT = 1e-5;  // a step from so small a residual does not change the tangent
 
     const Robot& robot_;
     const Layout<P>& layout_;
     const Actuation<P>& actuation_;
+    double pull_ = 0.0, pull_moment_ = 0.0;  // tensions, and with their offsets, of all tendons here
     double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
     TubeTangent tangent_[MAX_TUBES];
     TubeRows rows_[MAX_TUBES];
     SectionFactor factor_;
 
     void place_tendons(const Section<P>& section, const P& s) {
+        pull_ = pull_moment_ = 0.0;
         for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
             const Hosted& hosted = layout_.hosted[h];
             TendonState<P>& state = tendons[h - section.hosted.begin];
@@ -77,13 +84,15 @@ class SectionSolver {
                 state.tension = state.tension * factor;
             }
             state.slot = hosted.slot;
+            pull_ += value(state.tension);
+            pull_moment_ += value(state.tension) * (std::fabs(value(state.r[0])) + std::fabs(value(state.r[1])));
         }
     }
 
     /// Keeps the least |q|, at solutions and on the way to slow ones: a tendon bent to no length stops everything.
     void watch_tendons(const Section<P>& section) {
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h)
-            if (value(tendons[h].tension) > 0.0) shortest_tendon = smaller(shortest_tendon, tendon_tangents[h].speed);
+            if (value(tendons[h].tension) > 0.0) shortest_tendon = smaller(shortest_tendon, 1.0 / tendon_tangents[h].inverse);
     }
 
     static TendonState<double> plain(const TendonState<P>& t) {
@@ -107,26 +116,30 @@ class SectionSolver {
             const int a = tendon.slot;
             TendonTangent& tangent = tendon_tangents[h];
             double r[2];
-            add_tendon(tendon, value(cosine[a]), value(sine[a]), e, N_[a], M_[a], tangent.speed, tangent.t, r);
+            add_tendon(tendon, value(cosine[a]), value(sine[a]), e, N_[a], M_[a], tangent.inverse, tangent.t, r);
             tangent.x = r[0];
             tangent.y = r[1];
-            tangent.stiffness = tendon.tension / tangent.speed;
+            tangent.stiffness = tendon.tension * tangent.inverse;
         }
     }
 
     bool factor_tangent(const Section<P>& section, const Strains& e) {
-        for (int a = 0; a < section.active_count; ++a)
-            elastic_tangent(robot_.pieces[section.piece[a]], value(cosine[a]), value(sine[a]), tangent_[a]);
         const int count = section.hosted.end - section.hosted.begin;
-        for (int h = 0; h < count; ++h) add_tendon_tangent(tendon_tangents[h], tangent_[tendons[h].slot]);
-        for (int a = 0; a < section.active_count; ++a) rows_[a].set(tangent_[a], e.wx, e.wy, e.eta[a]);
+        for (int a = 0; a < section.active_count; ++a) {
+            TubeTangent K;
+            elastic_tangent(robot_.pieces[section.piece[a]], value(cosine[a]), value(sine[a]), K);
+            for (int h = 0; h < count; ++h)
+                if (tendons[h].slot == a) add_tendon_tangent(tendon_tangents[h], K);
+            rows_[a].set(K, e.wx, e.wy, e.eta[a]);
+            tangent_[a] = K;
+        }
         return factor_.factor(rows_, section.active_count, section.guided);
     }
 
     /// Residual of the section's equations, as right-hand sides of the Newton step; returns the largest, scaled.
     double residual(const Section<P>& section, const T* z, const Packing& packing, double total[4][1],
                     double tube[MAX_TUBES][2][1]) const {
-        double worst_force = 0.0, worst_moment = 0.0, forces = force_scale, moments = moment_scale;
+        double worst_force = 0.0, worst_moment = 0.0, forces = force_scale + pull_, moments = moment_scale + pull_moment_;
         for (int r = 0; r < 2; ++r) {
             total[r][0] = packing.sums < 0 ? 0.0 : value(z[packing.sums + 2 + r]);
             total[r + 2][0] = packing.sums < 0 ? 0.0 : value(z[packing.sums + r]);
@@ -159,15 +172,16 @@ class SectionSolver {
 
     bool find_strains(const Section<P>& section, const T* z, const Packing& packing, Strains& e) {
         double total[4][1], tube[MAX_TUBES][2][1];
-        Strains from = e, step = e;
+        Strains from, step;
         double last = INFINITY, fraction = 1.0;
         for (int iteration = 0; iteration < SECTION_ITERATIONS; ++iteration) {
             evaluate_wrenches(section, e);
             const double worst = residual(section, z, packing, total, tube);
-            if (LANES == 0 && !strict && worst < CLOSE_ENOUGH) return true;
+            if (LANES == 0 && precision == Precision::rough && worst < CLOSE_ENOUGH) return true;
             if (worst <= SECTION_TOLERANCE) {
                 worst_residual = larger(worst_residual, worst);
-                return finish(section, total, tube, e);
+                if (LANES == 0 && precision == Precision::checked) return true;
+                return finish(section, total, tube, e, last < SAME_TANGENT);
             }
             if (iteration > 2) watch_tendons(section);
             if (!(worst < last) && !(energy(section, z, packing, e) < energy(section, z, packing, from))) {
@@ -176,11 +190,11 @@ class SectionSolver {
                 move_strains(section, from, step, fraction, e);
                 continue;
             }
-            if (!strict && worst < LINEAR_ENOUGH) return finish(section, total, tube, e);
+            if (precision == Precision::rough && worst < LINEAR_ENOUGH) return finish(section, total, tube, e, false);
             if (!factor_tangent(section, e)) return false;
             factor_.template solve<1>(total, tube);
             if (section.guided) total[0][0] = total[1][0] = total[2][0] = total[3][0] = 0.0;
-            from = e;
+            copy_strains(e, section.active_count, from);
             step.kx = total[0][0];
             step.ky = total[1][0];
             step.wx = total[2][0];
@@ -197,8 +211,8 @@ class SectionSolver {
     }
 
     /// Ends on a linear step: it squares a residual that is small already, and keeps the march smooth in its unknowns.
-    bool finish(const Section<P>& section, double total[4][1], double tube[MAX_TUBES][2][1], Strains& e) {
-        if (!factor_tangent(section, e)) return false;
+    bool finish(const Section<P>& section, double total[4][1], double tube[MAX_TUBES][2][1], Strains& e, bool factored) {
+        if (!factored && !factor_tangent(section, e)) return false;
         factor_.template solve<1>(total, tube);
         if (section.guided) total[0][0] = total[1][0] = total[2][0] = total[3][0] = 0.0;
         step_linearly(section, total, tube, e);
@@ -227,9 +241,9 @@ class SectionSolver {
         }
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
             const TendonState<double> tendon = plain(tendons[h]);
-            double n[3] = {}, m[3] = {}, speed, t[3], r[2];
-            add_tendon(tendon, value(cosine[tendon.slot]), value(sine[tendon.slot]), e, n, m, speed, t, r);
-            sum += tendon.tension * speed;
+            double n[3] = {}, m[3] = {}, inverse, t[3], r[2];
+            add_tendon(tendon, value(cosine[tendon.slot]), value(sine[tendon.slot]), e, n, m, inverse, t, r);
+            sum += tendon.tension / inverse;
         }
         return std::isfinite(sum) ? sum : INFINITY;
     }
@@ -277,7 +291,7 @@ class SectionSolver {
     /// Strains with their derivatives by the implicit function theorem, and N_xy, M_xy with them.
     void carry(const Section<P>& section, const T* z, const Packing& packing, const Strains& e) {
         if constexpr (LANES == 0) {
-            strains = e;
+            copy_strains(e, section.active_count, strains);
             for (int a = 0; a < section.active_count; ++a)
                 for (int r = 0; r < 2; ++r) {
                     N_xy[a][r] = N_[a][r];
@@ -344,10 +358,13 @@ class SectionSolver {
 
     static void write_lanes(T& out, double v, const double* fixed, const double* row, const double total[4][WIDTH],
                             const double tube[2][WIDTH]) {
-        out.v = v;
+        const double a = row[0], b = row[1], c = row[2], d = row[3], f = row[4], g = row[5];
+        double rate[WIDTH];
         for (int l = 0; l < WIDTH; ++l)
-            out.d[l] = fixed[l] + row[0] * total[0][l] + row[1] * total[1][l] + row[2] * total[2][l] +
-                       row[3] * total[3][l] + row[4] * tube[0][l] + row[5] * tube[1][l];
+            rate[l] = fixed[l] + ((a * total[0][l] + b * total[1][l]) + (c * total[2][l] + d * total[3][l])) +
+                      (f * tube[0][l] + g * tube[1][l]);
+        out.v = v;
+        for (int l = 0; l < WIDTH; ++l) out.d[l] = rate[l];
     }
 
     /// With plain parameters and strains held fixed in R_b, only psi moves N and M. They turn with the tube:
@@ -363,7 +380,7 @@ class SectionSolver {
                                     -M_[a][1] - (K.vu[0][0] * vx + K.vu[1][0] * vy + K.uu[0] * ux + K.uu[1] * uy),
                                     M_[a][0] - (K.vu[0][1] * vx + K.vu[1][1] * vy + K.uu[1] * ux + K.uu[3] * uy),
                                     -(K.vu[0][2] * vx + K.vu[1][2] * vy + K.uu[2] * ux + K.uu[4] * uy)};
-            const T& psi = z[3 * a];
+            const T psi = z[3 * a];
             for (int r = 0; r < 6; ++r)
                 for (int l = 0; l < WIDTH; ++l) fixed[a][r][l] = rate[r] * psi.d[l];
         }
@@ -380,8 +397,8 @@ class SectionSolver {
         const int count = section.hosted.end - section.hosted.begin;
         for (int h = 0; h < count; ++h) {
             const int a = tendons[h].slot;
-            T speed, t[3], r[2];
-            add_tendon(tendons[h], cosine[a], sine[a], e, n[a], m[a], speed, t, r);
+            T inverse, t[3], r[2];
+            add_tendon(tendons[h], cosine[a], sine[a], e, n[a], m[a], inverse, t, r);
         }
         for (int a = 0; a < section.active_count; ++a)
             for (int r = 0; r < 3; ++r)

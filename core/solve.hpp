@@ -31,7 +31,7 @@ inline void solve_cold(NewtonSolver& newton, Solution& solution) {
 inline void solve(const Robot& robot, const Actuation<double>& actuation, const Settings& settings, const Solution* guess,
                   Solution& solution) {
     NewtonSolver newton(robot, actuation, settings);
-    if (guess && newton.start_from(*guess, solution) && newton.polish(solution)) return;
+    if (guess && newton.start_from(*guess, solution) && newton.polish(solution, NewtonSolver::Kind::draft)) return;
     solve_cold(newton, solution);
 }
 

@@ -74,7 +74,7 @@ struct Mesh {
 /// The states that change in one section, side by side: psi, N_3, M_3 of every tube present, then the shared ones.
 struct Packing {
     int index[STATES];  // place in the full state vector
-    int count = 0;
+    int count = 0, fed_back = 0;           // all; those on which rates depend: all but p, which stands last
     int sums = -1, frame = -1, path = -1;  // where the shared states start; -1: absent
 
     void set(const int* active, int active_count, bool guided, const MarchOptions& options) {
@@ -87,6 +87,7 @@ struct Packing {
         sums = frame = path = -1;
         if (options.sums && !guided) sums = append(SUM_N, 4);
         if (options.frame) frame = append(QUAT, 4);
+        fed_back = count;
         if (options.path && !guided) path = append(POS, 3);
     }
 
