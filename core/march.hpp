@@ -19,6 +19,12 @@ namespace tactr {
 /// Called after every step; the default sees nothing.
 struct NoObserver {};
 
+/// An observer that names a type Stages is called after every stage too, with the stage's share of an integral along s.
+template <class Observer, class = void>
+struct SeesStages : std::false_type {};
+template <class Observer>
+struct SeesStages<Observer, std::void_t<typename Observer::Stages>> : std::true_type {};
+
 /// The nonzero entries of one row of the Runge-Kutta tableau.
 struct SparseRow {
     double weight[dp8::DENSE_STAGES];
@@ -360,7 +366,7 @@ class March {
             T before[STATES];
             for (int n = 0; n < packing.count; ++n) before[n] = z[n];
             const size_t stage = first_stage + static_cast<size_t>(steps - 1 - step) * dp8::STAGES;
-            if (!run_stages(section, s, h, before, mesh, stage, warm)) return false;
+            if (!run_stages(section, k_section, s, h, before, mesh, stage, warm, observer)) return false;
             advance(h, before, section_error[k_section]);
             if constexpr (!std::is_same_v<Observer, NoObserver>) observer(*this, k_section, before, value(s), value(h));
         }
@@ -389,7 +395,9 @@ class March {
         }
     }
 
-    bool run_stages(const Section<P>& section, const P& s, const P& h, const T* before, Mesh& mesh, size_t first, bool warm) {
+    template <class Observer>
+    bool run_stages(const Section<P>& section, int k_section, const P& s, const P& h, const T* before, Mesh& mesh,
+                    size_t first, bool warm, Observer& observer) {
         static constexpr SparseRow ROWS[dp8::STAGES] = {
             {dp8::A[0], 0}, {dp8::A[1], 1}, {dp8::A[2], 2}, {dp8::A[3], 3}, {dp8::A[4], 4},   {dp8::A[5], 5},
             {dp8::A[6], 6}, {dp8::A[7], 7}, {dp8::A[8], 8}, {dp8::A[9], 9}, {dp8::A[10], 10}, {dp8::A[11], 11}};
@@ -403,6 +411,8 @@ class March {
             }
             if (!derivative(section, s + h * dp8::C[i], z, k[i], e)) return false;
             if (options.path) add_lengths(section, -value(h) * dp8::B[i]);
+            if constexpr (SeesStages<Observer>::value)
+                observer.stage(*this, section, k_section, value(s + h * dp8::C[i]), -value(h) * dp8::B[i]);
             if constexpr (LANES > 0)
                 if (slope_lanes > 0) keep_slopes(section, mesh, first + i);
             last_ = e;

@@ -50,19 +50,7 @@ class SectionSolver {
         return true;
     }
 
-  private:
-    // Of loose marches, which only lead to the strict one: below the first residual a linear step ends the solve,
-    // below the second, without derivatives, no step is taken.
-    static constexpr double LINEAR_ENOUGH = 1e-2, CLOSE_ENOUGH = 1e-4;
-
-    const Robot& robot_;
-    const Layout<P>& layout_;
-    const Actuation<P>& actuation_;
-    double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
-    TubeTangent tangent_[MAX_TUBES];
-    TubeRows rows_[MAX_TUBES];
-    SectionFactor factor_;
-
+    /// Where the section's tendons run at s, and their tension.
     void place_tendons(const Section<P>& section, const P& s) {
         for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
             const Hosted& hosted = layout_.hosted[h];
@@ -79,6 +67,19 @@ class SectionSolver {
             state.slot = hosted.slot;
         }
     }
+
+  private:
+    // Of loose marches, which only lead to the strict one: below the first residual a linear step ends the solve,
+    // below the second, without derivatives, no step is taken.
+    static constexpr double LINEAR_ENOUGH = 1e-2, CLOSE_ENOUGH = 1e-4;
+
+    const Robot& robot_;
+    const Layout<P>& layout_;
+    const Actuation<P>& actuation_;
+    double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
+    TubeTangent tangent_[MAX_TUBES];
+    TubeRows rows_[MAX_TUBES];
+    SectionFactor factor_;
 
     /// Keeps the least |q|, at solutions and on the way to slow ones: a tendon bent to no length stops everything.
     void watch_tendons(const Section<P>& section) {
