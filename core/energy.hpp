@@ -160,6 +160,7 @@ class BaseForces {
             if (carries[i]) force[i] += s < 0.0 && carriers > 1 ? jump[i] : total / carriers;
     }
 
+    /// Ends of distributed loads and corners of tension profiles change H in no jump.
     bool carries_jump(int i, double s) const {
         const double sigma = s - translation_[i];
         const auto here = [sigma](double place) { return std::fabs(sigma - place) <= 2.0 * BREAKPOINT_GAP; };
@@ -171,10 +172,6 @@ class BaseForces {
             if (robot_.tendons[j].tube == i && tendon_jumps(robot_.tendons[j], here)) return true;
         for (int l = 0; l < robot_.point_load_count; ++l)
             if (robot_.point_loads[l].tube == i && here(robot_.point_loads[l].at)) return true;
-        for (int l = 0; l < robot_.distributed_load_count; ++l) {
-            const DistributedLoad& load = robot_.distributed_loads[l];
-            if (load.tube == i && (here(load.start) || here(load.end))) return true;
-        }
         return false;
     }
 
@@ -183,8 +180,6 @@ class BaseForces {
         if (here(tendon.end)) return true;
         for (int k = tendon.piece_begin + 1; k < tendon.piece_end; ++k)
             if (here(robot_.routing[k].start)) return true;
-        for (int k = tendon.profile_begin + 1; k < tendon.profile_end; ++k)
-            if (here(robot_.profiles[k].start)) return true;
         return false;
     }
 };
