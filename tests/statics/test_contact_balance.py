@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
-import sys
 
 import numpy as np
 import pytest
@@ -13,8 +11,7 @@ import tactr
 from tactr import DistributedLoad, Helix, PointLoad, Robot, Tendon
 from tactr.statics import Shape
 
-sys.path.insert(0, str(Path(__file__).parent))
-from balance import breakpoints, carried, contact_on, host_at, pull_at
+from .balance import breakpoints, carried, contact_on, host_at, pull_at
 
 GAP = 1e-7
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
