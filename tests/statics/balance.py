@@ -34,7 +34,7 @@ def pull_at(shape: Shape, tendon: Tendon, host: int, s: float) -> Carried:
 
 
 def carried(shape: Shape, i: int) -> Carried:
-    """N_i and M_i of tube i with the tendons it guides, at its stations (none at a breakpoint), world axes."""
+    """N_i, M_i of tube i with the tendons it guides, at its stations (none at a breakpoint), world axes."""
     tube = shape.tubes[i]
     force = np.einsum("kab,kb->ka", tube.frames, tube.n)
     moment = np.einsum("kab,kb->ka", tube.frames, tube.m)

@@ -39,8 +39,14 @@ def three() -> Robot:
     section = [tactr.Annulus(0.003 - 0.0008 * i, 0.0024 - 0.0008 * i) for i in range(3)]
     lengths, rest = (0.14, 0.1, 0.18), ((8.0, 0.0, 0.0), (0.0, 9.0, 2.0), (10.0, -4.0, 0.0))
     tubes = [
-        tactr.Tube(name, length=lengths[i], section=section[i], material=tactr.materials.nitinol,
-                   precurvature=rest[i], rotation=0.5 * i)
+        tactr.Tube(
+            name,
+            length=lengths[i],
+            section=section[i],
+            material=tactr.materials.nitinol,
+            precurvature=rest[i],
+            rotation=0.5 * i,
+        )
         for i, name in enumerate("abc")
     ]
     tendons = [Tendon("t", "b", Helix(0.004, 12.0), tension=3.0, end=0.08)]
@@ -131,8 +137,18 @@ def test_each_tube_balances_across_breakpoints(loaded: Robot) -> None:
             df, dm = handed_over(shape, i, s - 1e-9, s + 1e-9)
             gone = len(tube.s) == 1 or beyond <= s
             N_beyond, M_beyond = (np.zeros(3), np.zeros(3)) if gone else (N[1], M[1])
-            np.testing.assert_allclose(N_beyond - N[0] + (near * force).sum(axis=0) + f + df, 0.0, atol=5e-8, err_msg=f"{tube.name} {s}")
-            np.testing.assert_allclose(M_beyond - M[0] + (near * moment).sum(axis=0) + m + dm, 0.0, atol=5e-9, err_msg=f"{tube.name} {s}")
+            np.testing.assert_allclose(
+                N_beyond - N[0] + (near * force).sum(axis=0) + f + df,
+                0.0,
+                atol=5e-8,
+                err_msg=f"{tube.name} {s}",
+            )
+            np.testing.assert_allclose(
+                M_beyond - M[0] + (near * moment).sum(axis=0) + m + dm,
+                0.0,
+                atol=5e-9,
+                err_msg=f"{tube.name} {s}",
+            )
 
 
 def test_the_exit_holds_each_tube(loaded: Robot) -> None:

@@ -28,8 +28,8 @@ def contact(robot: Robot) -> Contact:
 
 
 def test_aligned_tubes_touch_at_their_ends_only() -> None:
-    """Both bend to the mean of k1, k2 weighted by EI; the inner then carries EI2 (kappa - k2) from end to end,
-    and nothing but moments at its ends keeps it bent."""
+    """Both bend to the mean of k1, k2 weighted by EI; the inner then carries EI2 (kappa - k2) from end to
+    end, and nothing but moments at its ends keeps it bent."""
     k1, k2, f = 3.0, 11.0, 0.4
     found = contact(
         Robot([tube("outer", 1.0, precurvature=(k1, 0, 0)), tube("inner", f, precurvature=(k2, 0, 0))])
@@ -100,8 +100,8 @@ def test_a_tip_force_reaches_the_outer_tube_where_both_end() -> None:
 
 
 def test_a_tendon_on_the_outer_tube_bends_the_inner_by_its_ends() -> None:
-    """The tendon's own press lambda kappa is carried by the tube that guides it: the inner tube keeps its share
-    EI_2 kappa of the moment lambda r from the exit to its tip."""
+    """The tendon's own press lambda kappa is carried by the tube that guides it: the inner tube keeps its
+    share EI_2 kappa of the moment lambda r from the exit to its tip."""
     tension, r, f = 0.5, 0.005, 0.25
     tendon = Tendon("t", "outer", Straight(r, 0.0), tension=tension)
     found = contact(Robot([tube("outer", 1.0), tube("inner", f)], [tendon]))

@@ -15,14 +15,14 @@ from tactr.statics import Shape, Work
 SECTION = {"GJ": 4e-3, "EA": 2e7, "GA": 8e6}
 
 
-def robot(**tendon) -> Robot:
+def robot(tension: float | TensionProfile = 1.0, end: float | None = None) -> Robot:
     tubes = [
         Tube("outer", length=0.12, section=Stiffness(EI_x=5e-3, EI_y=5e-3, **SECTION), precurvature=(4, 2, 1),
              translation=-0.03),
         Tube("inner", length=0.2, section=Stiffness(EI_x=3e-3, EI_y=3e-3, **SECTION), precurvature=(0, 9, 0),
              translation=-0.06),
     ]  # fmt: skip
-    tendons = [Tendon("t", "inner", Straight(0.004, 0.001), **({"tension": 1.0} | tendon))]
+    tendons = [Tendon("t", "inner", Straight(0.004, 0.001), tension=tension, end=end)]
     return Robot(tubes, tendons, [PointLoad("inner", force=(0.03, -0.02, 0.01))])
 
 
@@ -43,13 +43,17 @@ def path(name: str, steps: int) -> list[Shape]:
     shapes = []
     for share in np.linspace(0.0, 1.0, steps + 1):
         actuation = {key: (1 - share) * np.array(start[key]) + share * np.array(stop[key]) for key in start}
-        shapes.append(tactr.solve(described, tolerance=1e-11, guess=shapes[-1] if shapes else None, **actuation))
+        shapes.append(
+            tactr.solve(described, tolerance=1e-11, guess=shapes[-1] if shapes else None, **actuation)
+        )
         assert shapes[-1].converged
     return shapes
 
 
 def imbalance(found: Work) -> float:
-    return abs(found.imbalance) / (abs(found.tension).sum() + abs(found.rotation).sum() + abs(found.translation).sum())
+    return abs(found.imbalance) / (
+        abs(found.tension).sum() + abs(found.rotation).sum() + abs(found.translation).sum()
+    )
 
 
 @pytest.mark.parametrize("name", PATHS)

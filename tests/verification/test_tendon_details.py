@@ -1,4 +1,4 @@
-"""Tendons that end early, share a channel, or change their host, against the published model solved by SciPy."""
+"""Tendons that end early, share a channel or change their host, against the published model by SciPy."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CHANNEL = Straight(0.004, 0.002)
 
 
 def tubes(twist: float = 0.0) -> list[Tube]:
-    """twist: rest twist (1/m) and rotation of the inner tube, so that the two are turned where the outer ends."""
+    """twist: rest twist (1/m) of the inner tube, also rotated, so that they are turned where one ends."""
     return [
         Tube("outer", length=0.1, section=Annulus(0.0018, 0.0014), material=nitinol, precurvature=(0, 4, 0)),
         Tube("inner", length=0.16, section=Annulus(0.0012, 0.0009), material=nitinol,
@@ -62,10 +62,12 @@ def test_several_on_one_channel(host: Host) -> None:
 
 
 @pytest.mark.parametrize("twist", [0.0, 8.0, -15.0])
-@pytest.mark.parametrize("loads", [(), (PointLoad("inner", force=(0.03, -0.02, 0.01)),)], ids=["free", "loaded"])
+@pytest.mark.parametrize(
+    "loads", [(), (PointLoad("inner", force=(0.03, -0.02, 0.01)),)], ids=["free", "loaded"]
+)
 def test_host_changes_between_turned_tubes(twist: float, loads: tuple[PointLoad, ...]) -> None:
-    """The route is that of the host of each section, so it jumps sideways where the hosts are turned; the pull
-    beyond passes to the outer tube's end as it is, lambda t with its moment about the axis."""
+    """The route is that of the host of each section, so it jumps sideways where the hosts are turned; the
+    pull beyond passes to the outer tube's end as it is, lambda t with its moment about the axis."""
     tendons = [Tendon("t", "inner", Helix(0.004, 12.0), host="outermost", tension=1.2)]
     robot = Robot(tubes(twist), tendons, loads)
     if twist:

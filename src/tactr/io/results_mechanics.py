@@ -21,8 +21,12 @@ def add_mechanics(variables: dict[str, Any], shape: Shape) -> None:
     """Add strain energies, actuator forces, guide reaction and contact."""
     forces, reaction = shape.actuator_forces, shape.guide_reaction
     variables["tube_energy"] = variable("tube", shape.tube_energy, "J", "elastic strain energy")
-    variables["base_torque"] = variable("tube", forces.torque, "N m", "by the actuator on the proximal end, about z")
-    variables["base_force"] = variable("tube", forces.force, "N", "by the actuator on the proximal end, along z")
+    variables["base_torque"] = variable(
+        "tube", forces.torque, "N m", "by the actuator on the proximal end, about z"
+    )
+    variables["base_force"] = variable(
+        "tube", forces.force, "N", "by the actuator on the proximal end, along z"
+    )
     text = "by the guide on the robot outside, across z"
     variables["guide_force"] = variable("axis", reaction.force, "N", text)
     variables["guide_moment"] = variable("axis", reaction.moment, "N m", f"{text}, about its exit")

@@ -61,9 +61,11 @@ def contacts_of(records: Mapping[str, Any], names: Sequence[str]) -> tuple[Conta
         for inner in range(outer + 1, len(names)):
             here, there = along["outer"][inner] == outer, points["outer"][inner] == outer
             if here.any() or there.any():
-                lines = (along["s"][here], *(along[field][inner, here] for field in ("force", "moment")))
-                spots = (points["s"][there], *(points[field][inner, there] for field in ("force", "moment")))
-                found.append(Contact(names[outer], names[inner], *lines, PointContacts(*spots)))
+                spots = PointContacts(
+                    points["s"][there], points["force"][inner, there], points["moment"][inner, there]
+                )
+                s, force, moment = along["s"][here], along["force"][inner, here], along["moment"][inner, here]
+                found.append(Contact(names[outer], names[inner], s, force, moment, spots))
     return tuple(found)
 
 

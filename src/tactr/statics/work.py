@@ -48,7 +48,9 @@ def work(shapes: Sequence[Shape]) -> Work:
     """
     _check_path(shapes)
 
-    def along(force: Callable[[Shape], np.ndarray], displacement: Callable[[Shape], np.ndarray]) -> np.ndarray:
+    def along(
+        force: Callable[[Shape], np.ndarray], displacement: Callable[[Shape], np.ndarray]
+    ) -> np.ndarray:
         forces, places = (np.array([read(shape) for shape in shapes]) for read in (force, displacement))
         return (0.5 * (forces[1:] + forces[:-1]) * np.diff(places, axis=0)).sum(axis=0)
 
@@ -73,11 +75,15 @@ def _check_path(shapes: Sequence[Shape]) -> None:
         if isinstance(tendon.tension, TensionProfile):
             raise RobotError(f"tendons[{k}].tension", "a profile has no one tension", "a number in N")
     for k, shape in enumerate(shapes[1:], start=1):
-        other = shape.robot.with_actuation(
-            tension=[tendon.tension for tendon in first.tendons],
-            rotation=[tube.rotation for tube in first.tubes],
-            translation=[tube.translation for tube in first.tubes],
-        ) if _counts(shape) == _counts(shapes[0]) else None
+        other = (
+            shape.robot.with_actuation(
+                tension=[tendon.tension for tendon in first.tendons],
+                rotation=[tube.rotation for tube in first.tubes],
+                translation=[tube.translation for tube in first.tubes],
+            )
+            if _counts(shape) == _counts(shapes[0])
+            else None
+        )
         if other != first:
             raise RobotError(f"shapes[{k}]", "it is of another robot", "one robot under changing actuation")
 
