@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "energetics.hpp"
+#include "point_contact.hpp"
 #include "sample.hpp"
 #include "sensitivity.hpp"
 #include "solve.hpp"
@@ -212,6 +214,47 @@ nb::object tip_jacobian(const PreparedRobot& robot, const tactr::Solution& solut
     return nb::cast(array_of(std::move(data), shape));
 }
 
+/// Per tube: outer neighbours (records,), forces and moments (records, 3); s (records,).
+nb::dict contact_arrays(const std::vector<tactr::ContactRecord>& records, size_t tubes) {
+    std::vector<double> s, outer, force, moment;
+    for (const auto& record : records) s.push_back(record.s);
+    for (size_t i = 0; i < tubes; ++i)
+        for (const auto& record : records) {
+            outer.push_back(record.outer[i]);
+            force.insert(force.end(), record.on[i].force, record.on[i].force + 3);
+            moment.insert(moment.end(), record.on[i].moment, record.on[i].moment + 3);
+        }
+    const size_t line[1] = {records.size()}, plane[2] = {tubes, records.size()}, cube[3] = {tubes, records.size(), 3};
+    nb::dict out;
+    out["s"] = nb::cast(array_of(std::move(s), line));
+    out["outer"] = nb::cast(array_of(std::move(outer), plane));
+    out["force"] = nb::cast(array_of(std::move(force), cube));
+    out["moment"] = nb::cast(array_of(std::move(moment), cube));
+    return out;
+}
+
+nb::dict contacts(const PreparedRobot& robot, const tactr::Solution& solution, const Vector& stations) {
+    const std::vector<double> s(stations.data(), stations.data() + stations.shape(0));
+    if (!std::is_sorted(s.begin(), s.end())) throw std::invalid_argument("stations must ascend");
+    tactr::Contacts found;
+    if (!tactr::contacts(robot.view(), solution, s, found)) throw std::runtime_error("the solution has no contact forces");
+    nb::dict out;
+    out["along"] = contact_arrays(found.along, robot.tubes.size());
+    out["points"] = contact_arrays(found.points, robot.tubes.size());
+    return out;
+}
+
+nb::dict energetics(const PreparedRobot& robot, const tactr::Solution& solution) {
+    tactr::Energetics found;
+    if (!tactr::energetics(robot.view(), solution, found)) throw std::runtime_error("the solution has no energies");
+    nb::dict out;
+    out["strain_energy"] = vector_of(found.strain_energy.data(), found.strain_energy.size());
+    out["load_potential"] = found.load_potential;
+    out["torque"] = vector_of(found.torque.data(), found.torque.size());
+    out["force"] = vector_of(found.force.data(), found.force.size());
+    return out;
+}
+
 }  // namespace
 
 NB_MODULE(_core, m) {
@@ -254,4 +297,6 @@ NB_MODULE(_core, m) {
           "guess"_a = nb::none(), "steps"_a = 0, "Free-end unknowns, residuals and tip of one robot at one actuation.");
     m.def("tip_jacobian", &tip_jacobian, "robot"_a, "solution"_a, "d(tip position, tip rotation)/d(tensions, rotations).");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
+    m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
+    m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");
 }

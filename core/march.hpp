@@ -20,6 +20,12 @@ namespace tactr {
 /// Called after every step; the default sees nothing.
 struct NoObserver {};
 
+/// An observer that names a type Stages is called after every stage too, with the stage's share of an integral along s.
+template <class Observer, class = void>
+struct SeesStages : std::false_type {};
+template <class Observer>
+struct SeesStages<Observer, std::void_t<typename Observer::Stages>> : std::true_type {};
+
 /// The nonzero entries of one row of the Runge-Kutta tableau.
 struct SparseRow {
     double weight[dp8::DENSE_STAGES];
@@ -354,6 +360,7 @@ class March {
 
     template <class Observer>
     bool march_section(const Section<P>& section, int k_section, Mesh& mesh, size_t first_stage, bool warm, Observer& observer) {
+        if constexpr (SeesStages<Observer>::value) packing.fed_back = packing.count;  // p at the stages too
         const int steps = mesh.steps[k_section];
         const P h = (section.proximal - section.distal) * (1.0 / steps);
         for (int step = 0; step < steps; ++step) {
@@ -361,7 +368,7 @@ class March {
             T before[STATES];
             for (int n = 0; n < packing.count; ++n) before[n] = z[n];
             const size_t stage = first_stage + static_cast<size_t>(steps - 1 - step) * dp8::STAGES;
-            if (!run_stages(section, s, h, before, mesh, stage, warm)) return false;
+            if (!run_stages(section, k_section, s, h, before, mesh, stage, warm, observer)) return false;
             advance(h, before, section_error[k_section]);
             if constexpr (!std::is_same_v<Observer, NoObserver>) observer(*this, k_section, before, value(s), value(h));
         }
@@ -390,7 +397,9 @@ class March {
         }
     }
 
-    bool run_stages(const Section<P>& section, const P& s, const P& h, const T* before, Mesh& mesh, size_t first, bool warm) {
+    template <class Observer>
+    bool run_stages(const Section<P>& section, int k_section, const P& s, const P& h, const T* before, Mesh& mesh,
+                    size_t first, bool warm, Observer& observer) {
         for (int i = 0; i < dp8::STAGES; ++i) {
             to_stage(i, h, before);
             Strains& e = mesh.strains[first + i];
@@ -401,6 +410,8 @@ class March {
             }
             if (!derivative(section, s + h * dp8::C[i], z, k[i], e)) return false;
             if (options.path) add_lengths(section, -value(h) * dp8::B[i]);
+            if constexpr (SeesStages<Observer>::value)
+                observer.stage(*this, section, k_section, value(s + h * dp8::C[i]), -value(h) * dp8::B[i]);
             if constexpr (LANES > 0)
                 if (slope_lanes > 0) keep_slopes(section, mesh, first + i);
             if (!warm || i + 1 == dp8::STAGES) copy_strains(e, section.active_count, last_);

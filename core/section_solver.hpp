@@ -54,21 +54,7 @@ class SectionSolver {
         return true;
     }
 
-  private:
-    // Of rough marches: below the first residual a linear step ends the solve, below the second, without derivatives, no
-    // step is taken.
-    static constexpr double LINEAR_ENOUGH = LANES == 0 ? 0.1 : 1e-2, CLOSE_ENOUGH = 1e-5;
-    static constexpr double SAME_TANGENT = 1e-5;  // a step from so small a residual does not change the tangent
-
-    const Robot& robot_;
-    const Layout<P>& layout_;
-    const Actuation<P>& actuation_;
-    double pull_ = 0.0, pull_moment_ = 0.0;  // tensions, and with their offsets, of all tendons here
-    double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
-    TubeTangent tangent_[MAX_TUBES];
-    TubeRows rows_[MAX_TUBES];
-    SectionFactor factor_;
-
+    /// Where the section's tendons run at s, and their tension.
     void place_tendons(const Section<P>& section, const P& s) {
         pull_ = pull_moment_ = 0.0;
         for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
@@ -88,6 +74,21 @@ class SectionSolver {
             pull_moment_ += value(state.tension) * (std::fabs(value(state.r[0])) + std::fabs(value(state.r[1])));
         }
     }
+
+  private:
+    // Of rough marches: below the first residual a linear step ends the solve, below the second, without derivatives, no
+    // step is taken.
+    static constexpr double LINEAR_ENOUGH = LANES == 0 ? 0.1 : 1e-2, CLOSE_ENOUGH = 1e-5;
+    static constexpr double SAME_TANGENT = 1e-5;  // a step from so small a residual does not change the tangent
+
+    const Robot& robot_;
+    const Layout<P>& layout_;
+    const Actuation<P>& actuation_;
+    double pull_ = 0.0, pull_moment_ = 0.0;  // tensions, and with their offsets, of all tendons here
+    double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
+    TubeTangent tangent_[MAX_TUBES];
+    TubeRows rows_[MAX_TUBES];
+    SectionFactor factor_;
 
     /// Keeps the least |q|, at solutions and on the way to slow ones: a tendon bent to no length stops everything.
     void watch_tendons(const Section<P>& section) {

@@ -32,7 +32,21 @@ if TYPE_CHECKING:
         TensionProfile,
         Tube,
     )
-    from tactr.statics import Prepared, Shape, Status, TendonShape, TipJacobian, TubeShape, solve
+    from tactr.statics import (
+        ActuatorForces,
+        Contact,
+        GuideReaction,
+        PointContacts,
+        Prepared,
+        Shape,
+        Status,
+        TendonShape,
+        TipJacobian,
+        TubeShape,
+        Work,
+        solve,
+        work,
+    )
 
 _HOME = {
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
@@ -57,23 +71,41 @@ _HOME = {
         "TensionProfile",
         "Tube",
     ),
-    "tactr.statics": ("Prepared", "Shape", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"),
+    "tactr.statics": (
+        "ActuatorForces",
+        "Contact",
+        "GuideReaction",
+        "PointContacts",
+        "Prepared",
+        "Shape",
+        "Status",
+        "TendonShape",
+        "TipJacobian",
+        "TubeShape",
+        "Work",
+        "solve",
+        "work",
+    ),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 _SUBMODULES = ("examples", "materials", "reference")
 
 __version__ = "0.1.0"
 __all__ = [
+    "ActuatorForces",
     "Annulus",
+    "Contact",
     "DistributedLoad",
     "FileError",
     "Function",
     "Gravity",
+    "GuideReaction",
     "Helix",
     "Material",
     "MissingExtra",
     "NotConverged",
     "Piecewise",
+    "PointContacts",
     "PointLoad",
     "PolarPolynomial",
     "Polynomial",
@@ -93,12 +125,14 @@ __all__ = [
     "TipJacobian",
     "Tube",
     "TubeShape",
+    "Work",
     "examples",
     "load",
     "materials",
     "reference",
     "save",
     "solve",
+    "work",
 ]
 
 

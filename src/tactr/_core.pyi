@@ -1,5 +1,7 @@
 """tactr's kernel: statics of tendon-actuated concentric tubes, from the free end to the base. SI units."""
 
+from typing import Any
+
 import numpy as np
 
 MAX_TUBES: int
@@ -54,3 +56,11 @@ def tip_jacobian(robot: PreparedRobot, solution: Solution) -> np.ndarray:
 
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""
+
+def contacts(
+    robot: PreparedRobot, solution: Solution, stations: np.ndarray
+) -> dict[str, dict[str, np.ndarray]]:
+    """What tubes exert on each other: along s, and at points."""
+
+def energetics(robot: PreparedRobot, solution: Solution) -> dict[str, Any]:
+    """Energies, and the torques and forces of the actuators."""

@@ -39,6 +39,23 @@ def test_the_arrays_are_those_of_the_shape():
     assert data.attrs["discretisation_error_m"] == shape.discretisation_error
 
 
+def test_forces_and_energies_are_those_of_the_shape():
+    shape = tactr.solve(examples.load("three_tube_ctr"))
+    data = shape.to_xarray()
+    assert np.array_equal(data.tube_energy, shape.tube_energy)
+    assert np.array_equal(data.base_torque, shape.actuator_forces.torque)
+    assert np.array_equal(data.base_force, shape.actuator_forces.force)
+    assert np.array_equal(data.guide_moment, shape.guide_reaction.moment)
+    names = data.tube.values
+    for k, contact in enumerate(shape.contacts):
+        assert names[data.contact_outer[k]] == contact.outer and names[data.contact_inner[k]] == contact.inner
+        along = data.isel(contact_station=data.contact_index.values == k)
+        points = data.isel(contact_point_station=data.contact_point_index.values == k)
+        for field in ("s", "force", "moment"):
+            assert np.array_equal(along[f"contact_{field}"], getattr(contact, field))
+            assert np.array_equal(points[f"contact_point_{field}"], getattr(contact.points, field))
+
+
 def test_every_variable_has_a_unit_and_a_name():
     data = tactr.solve(examples.load("two_tube_90")).to_xarray()
     for name, variable in data.data_vars.items():

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tactr.errors import FileError, MissingExtra, RobotError
+from tactr.io.results_mechanics import add_mechanics, variable
 
 if TYPE_CHECKING:
     import xarray
@@ -41,6 +42,7 @@ def to_xarray(shape: Shape) -> xarray.Dataset:
     variables: dict[str, Any] = {}
     _add_robot(variables, shape)
     _add_tubes(variables, shape)
+    add_mechanics(variables, shape)
     if shape.tendons:
         _add_tendons(variables, shape)
     coordinates = {
@@ -76,20 +78,16 @@ def _import(module: str) -> Any:
         raise MissingExtra(module, "netcdf", "a dataset of a shape") from None
 
 
-def _variable(dims: str, values: Any, units: str, text: str) -> tuple[list[str], np.ndarray, dict[str, str]]:
-    return dims.split(), np.asarray(values), {"units": units, "long_name": text}
-
-
 def _add_robot(variables: dict[str, Any], shape: Shape) -> None:
     points, places = shape.transition_points
-    variables["s"] = _variable("station", shape.s, "m", "arc length from the guide's exit")
-    variables["centreline"] = _variable("station axis", shape.centreline, "m", "centreline")
-    variables["tip_position"] = _variable("axis", shape.tip_position, "m", "position of the tip")
-    variables["tip_quaternion"] = _variable("component", shape.tip_quaternion, "1", "orientation of the tip")
-    variables["transition_s"] = _variable(
+    variables["s"] = variable("station", shape.s, "m", "arc length from the guide's exit")
+    variables["centreline"] = variable("station axis", shape.centreline, "m", "centreline")
+    variables["tip_position"] = variable("axis", shape.tip_position, "m", "position of the tip")
+    variables["tip_quaternion"] = variable("component", shape.tip_quaternion, "1", "orientation of the tip")
+    variables["transition_s"] = variable(
         "transition", places, "m", "arc length where a tube ends before the robot does"
     )
-    variables["transition_point"] = _variable(
+    variables["transition_point"] = variable(
         "transition axis", points.reshape(-1, 3), "m", "centreline there"
     )
 
@@ -97,30 +95,30 @@ def _add_robot(variables: dict[str, Any], shape: Shape) -> None:
 def _add_tubes(variables: dict[str, Any], shape: Shape) -> None:
     counts = [len(tube.s) for tube in shape.tubes]
     index = np.repeat(np.arange(len(counts)), counts)
-    variables["tube_index"] = _variable("tube_station", index, "1", "tube of each entry, outermost 0")
+    variables["tube_index"] = variable("tube_station", index, "1", "tube of each entry, outermost 0")
     for name, (units, text) in _TUBE_FIELDS.items():
         values = np.concatenate([getattr(tube, name) for tube in shape.tubes])
         dims = "tube_station" if values.ndim == 1 else "tube_station axis"
-        variables[f"tube_{name}"] = _variable(dims, values, units, text)
+        variables[f"tube_{name}"] = variable(dims, values, units, text)
     frames = np.concatenate([tube.frames for tube in shape.tubes])
     text = "material frame: its columns are the directors d1, d2, d3, world axes"
-    variables["tube_frame"] = _variable("tube_station axis director", frames, "1", text)
+    variables["tube_frame"] = variable("tube_station axis director", frames, "1", text)
 
 
 def _add_tendons(variables: dict[str, Any], shape: Shape) -> None:
     tendons = shape.tendons
     index = np.repeat(np.arange(len(tendons)), [len(tendon.s) for tendon in tendons])
-    variables["tendon_length"] = _variable(
+    variables["tendon_length"] = variable(
         "tendon", [t.length for t in tendons], "m", "length from the proximal end of its tube"
     )
-    variables["tendon_index"] = _variable("tendon_station", index, "1", "tendon of each entry")
+    variables["tendon_index"] = variable("tendon_station", index, "1", "tendon of each entry")
     for name, dims, units, text in (
         ("s", "tendon_station", "m", "arc length from the guide's exit"),
         ("path", "tendon_station axis", "m", "path of the tendon"),
         ("tension", "tendon_station", "N", "tension"),
     ):
         values = np.concatenate([getattr(tendon, name) for tendon in tendons])
-        variables[f"tendon_{name}"] = _variable(dims, values, units, text)
+        variables[f"tendon_{name}"] = variable(dims, values, units, text)
 
 
 def _attributes(shape: Shape) -> dict[str, Any]:

@@ -59,8 +59,11 @@ class Tendon:
 
     name: by which actuation refers to it. tube: name of the tube where it ends. routing: its path (x, y) over
     that tube's own arc length sigma. host: "own" when it runs in that tube's lumen (the published approach
-    B), "outermost" when disks on the outermost tube present guide it (approach A). tension: N, at least 0, or
-    a TensionProfile. end: sigma in m where it is fixed; None for the tube's distal end. Raises RobotError.
+    B), "outermost" when disks on the outermost tube present guide it (approach A). Each host reads the path
+    in its own material frame: where the host changes between tubes turned against each other, the path jumps
+    sideways, and the tendon's pull beyond, force and moment, passes to the end of the outer one. tension: N,
+    at least 0, or a TensionProfile. end: sigma in m where it is fixed; None for the tube's distal end. Raises
+    RobotError.
     """
 
     name: str

@@ -1,7 +1,24 @@
 """Statics: from a robot and its actuation to its shape, over the C++ kernel."""
 
+from tactr.statics.contact import Contact, GuideReaction, PointContacts
+from tactr.statics.mechanics import ActuatorForces
 from tactr.statics.shape import Shape, TendonShape, TipJacobian, TubeShape
 from tactr.statics.solve import Prepared, solve
 from tactr.statics.status import Status
+from tactr.statics.work import Work, work
 
-__all__ = ["Prepared", "Shape", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"]
+__all__ = [
+    "ActuatorForces",
+    "Contact",
+    "GuideReaction",
+    "PointContacts",
+    "Prepared",
+    "Shape",
+    "Status",
+    "TendonShape",
+    "TipJacobian",
+    "TubeShape",
+    "Work",
+    "solve",
+    "work",
+]

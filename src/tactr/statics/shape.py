@@ -13,6 +13,7 @@ from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
 from tactr.statics.frames import rotation_matrices, turned_about_z
+from tactr.statics.mechanics import Mechanics
 from tactr.statics.stations import Stations, station_places
 from tactr.statics.status import Status, explain, status_of
 
@@ -76,7 +77,7 @@ class TipJacobian(NamedTuple):
     rotation: np.ndarray
 
 
-class Shape:
+class Shape(Mechanics):
     """The shape of a robot under given actuation, or why there is none.
 
     Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,

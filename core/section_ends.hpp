@@ -1,0 +1,90 @@
+// What the tubes carry at both ends of every section: their resultants, their tendons' pulls and their energies.
+#pragma once
+#include <cmath>
+#include <vector>
+
+#include "march.hpp"
+
+namespace tactr {
+
+struct Wrench {
+    double force[3], moment[3];
+};
+
+/// One end of a section. Wrenches in R_b; tubes by place among those present, tendons among those hosted.
+struct SectionEnd {
+    double quaternion[4];           // R_b
+    double psi[MAX_TUBES];
+    Wrench resultant[MAX_TUBES];    // N_i, M_i: elastic part and tendons
+    std::vector<Wrench> pull;       // lambda t, lambda r x t
+    std::vector<double> path;       // lambda |q|
+    double power[MAX_TUBES];        // of the resultants on the strains: N.v + M.u, behind the exit M_3 tau alone
+    double energy[MAX_TUBES];       // strain energy per length
+};
+
+/// Strain energy per length of the tube in a slot of the section solved last, J/m.
+template <class M>
+double energy_density(const M& march, const Robot& robot, const Section<double>& section, int a) {
+    const TubePiece& tube = robot.pieces[section.piece[a]];
+    const Strains& e = march.solver.strains;
+    const double c = march.solver.cosine[a], s = march.solver.sine[a], stretch = 1.0 + e.eta[a];
+    const double bx = c * e.kx + s * e.ky - tube.ustar[0], by = c * e.ky - s * e.kx - tube.ustar[1];
+    const double twist = e.tau[a] - tube.ustar[2];
+    return 0.5 * (tube.EIx * bx * bx + tube.EIy * by * by + tube.GJ * twist * twist + tube.EA * e.eta[a] * e.eta[a] +
+                  tube.GA * stretch * stretch * (e.wx * e.wx + e.wy * e.wy));
+}
+
+/// From the section solved last; state: its packed states.
+template <class M>
+void read_end(const M& march, const Robot& robot, const Section<double>& section, const double* state, SectionEnd& out) {
+    const Strains& e = march.solver.strains;
+    for (int c = 0; c < 4; ++c) out.quaternion[c] = state[march.packing.frame + c];
+    for (int a = 0; a < section.active_count; ++a) {
+        const double *n = march.solver.N_xy[a], *m = march.solver.M_xy[a], stretch = 1.0 + e.eta[a];
+        out.psi[a] = state[3 * a];
+        out.resultant[a] = {{n[0], n[1], state[3 * a + 1]}, {m[0], m[1], state[3 * a + 2]}};
+        out.energy[a] = energy_density(march, robot, section, a);
+        out.power[a] = state[3 * a + 2] * e.tau[a];
+        if (!section.guided)
+            out.power[a] += m[0] * e.kx + m[1] * e.ky + stretch * (n[0] * e.wx + n[1] * e.wy + state[3 * a + 1]);
+    }
+    out.pull.clear();
+    out.path.clear();
+    for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
+        const TendonState<double>& tendon = march.solver.tendons[h];
+        double n[3] = {}, m[3] = {}, speed, t[3], r[2];
+        add_tendon(tendon, march.solver.cosine[tendon.slot], march.solver.sine[tendon.slot], e, n, m, speed, t, r);
+        out.pull.push_back({{n[0], n[1], n[2]}, {m[0], m[1], m[2]}});
+        out.path.push_back(tendon.tension * speed);
+    }
+}
+
+/// Watches a march and keeps both ends of every section.
+class EndsReader {
+  public:
+    using Stages = void;
+    std::vector<SectionEnd> distal, proximal;  // by section
+
+    EndsReader(const Robot& robot, const Layout<double>& layout)
+        : distal(layout.sections.size()), proximal(layout.sections.size()), robot_(robot), layout_(layout) {}
+
+    template <class M>
+    void stage(M& march, const Section<double>& section, int k, double s, double) {
+        if (s == section.distal) read_end(march, robot_, section, march.z, distal[k]);
+    }
+
+    template <class M>
+    void operator()(M& march, int k, const double*, double s, double h) {
+        const Section<double>& section = layout_.sections[k];
+        if (std::fabs(s + h - section.proximal) > 1e-9 * (section.distal - section.proximal)) return;
+        Strains e = march.solver.strains;
+        if (march.solver.solve(section, section.proximal, march.z, march.packing, e))
+            read_end(march, robot_, section, march.z, proximal[k]);
+    }
+
+  protected:
+    const Robot& robot_;
+    const Layout<double>& layout_;
+};
+
+}  // namespace tactr
