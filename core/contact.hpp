@@ -160,8 +160,8 @@ class ContactReader {
         march_.solver.place_tendons(section, s);
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
             const TendonState<double>& tendon = march_.solver.tendons[h];
-            double n[3] = {}, m[3] = {}, speed, t[3], r[2];
-            add_tendon(tendon, cosine[tendon.slot], sine[tendon.slot], e, n, m, speed, t, r);
+            double n[3] = {}, m[3] = {}, inverse, t[3], r[2];
+            add_tendon(tendon, cosine[tendon.slot], sine[tendon.slot], e, n, m, inverse, t, r);
             carry(tendon.slot, n, m);
         }
         for (int c = 0; c < 4; ++c) z[march_.packing.frame + c] = station.quaternion[c];

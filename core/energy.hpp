@@ -70,7 +70,7 @@ class EnergyReader : public EndsReader {
             evaluate_polynomial(piece.c, piece.count, sigma.v - piece.start, factor, slope);
             slope *= actuation_.tension[hosted.tendon];
         }
-        return march.solver.tendons[place].tension * stretched + slope * tangent.speed;
+        return march.solver.tendons[place].tension * stretched + slope / tangent.inverse;
     }
 
     template <class M>

@@ -52,10 +52,10 @@ void read_end(const M& march, const Robot& robot, const Section<double>& section
     out.path.clear();
     for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
         const TendonState<double>& tendon = march.solver.tendons[h];
-        double n[3] = {}, m[3] = {}, speed, t[3], r[2];
-        add_tendon(tendon, march.solver.cosine[tendon.slot], march.solver.sine[tendon.slot], e, n, m, speed, t, r);
+        double n[3] = {}, m[3] = {}, inverse, t[3], r[2];
+        add_tendon(tendon, march.solver.cosine[tendon.slot], march.solver.sine[tendon.slot], e, n, m, inverse, t, r);
         out.pull.push_back({{n[0], n[1], n[2]}, {m[0], m[1], m[2]}});
-        out.path.push_back(tendon.tension * speed);
+        out.path.push_back(tendon.tension / inverse);
     }
 }
 
