@@ -11,6 +11,7 @@ from tactr import _core
 from tactr.robot import DistributedLoad, Gravity, PointLoad, Robot, Tendon, TensionProfile, Tube
 
 COEFFICIENTS = 16
+TUBE_COEFFICIENTS = 8
 
 
 def assemble(robot: Robot) -> _core.PreparedRobot:
@@ -18,7 +19,7 @@ def assemble(robot: Robot) -> _core.PreparedRobot:
     index = {tube.name: i for i, tube in enumerate(robot.tubes)}
     return _core.PreparedRobot(
         tubes=_table([_tube_row(tube) for tube in robot.tubes], 3),
-        pieces=_table([row for tube in robot.tubes for row in _piece_rows(tube)], 9),
+        pieces=_table([row for tube in robot.tubes for row in _piece_rows(tube)], 2 + 13 * TUBE_COEFFICIENTS),
         tendons=_table([_tendon_row(robot, tendon, index) for tendon in robot.tendons], 5),
         routing=_table(
             [row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS
@@ -51,7 +52,8 @@ def _tube_row(tube: Tube) -> list[float]:
 
 def _piece_rows(tube: Tube) -> list[list[float]]:
     k = tube.stiffness
-    return [[start, k.EI_x, k.EI_y, k.GJ, k.EA, k.GA, *ustar] for start, ustar in tube.precurvature]
+    rest = [0.0] * (5 + 13 * (TUBE_COEFFICIENTS - 1))
+    return [[start, 1, k.EI_x, k.EI_y, k.GJ, k.EA, k.GA, *ustar, *rest] for start, ustar in tube.precurvature]
 
 
 def _tendon_row(robot: Robot, tendon: Tendon, index: dict[str, int]) -> list[float]:
