@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
     from tactr.io import load, save
     from tactr.robot import (
+        Along,
         Annulus,
+        AsymmetricNotches,
         DistributedLoad,
         Function,
         Gravity,
@@ -23,11 +25,13 @@ if TYPE_CHECKING:
         PointLoad,
         PolarPolynomial,
         Polynomial,
+        RestShape,
         Robot,
         Rod,
         Spline,
         Stiffness,
         Straight,
+        SymmetricNotches,
         Tendon,
         TensionProfile,
         Tube,
@@ -38,7 +42,9 @@ _HOME = {
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
     "tactr.io": ("load", "save"),
     "tactr.robot": (
+        "Along",
         "Annulus",
+        "AsymmetricNotches",
         "DistributedLoad",
         "Function",
         "Gravity",
@@ -48,11 +54,13 @@ _HOME = {
         "PointLoad",
         "PolarPolynomial",
         "Polynomial",
+        "RestShape",
         "Robot",
         "Rod",
         "Spline",
         "Stiffness",
         "Straight",
+        "SymmetricNotches",
         "Tendon",
         "TensionProfile",
         "Tube",
@@ -64,7 +72,9 @@ _SUBMODULES = ("examples", "materials", "reference")
 
 __version__ = "0.1.0"
 __all__ = [
+    "Along",
     "Annulus",
+    "AsymmetricNotches",
     "DistributedLoad",
     "FileError",
     "Function",
@@ -78,6 +88,7 @@ __all__ = [
     "PolarPolynomial",
     "Polynomial",
     "Prepared",
+    "RestShape",
     "Robot",
     "RobotError",
     "Rod",
@@ -86,6 +97,7 @@ __all__ = [
     "Status",
     "Stiffness",
     "Straight",
+    "SymmetricNotches",
     "TactrError",
     "Tendon",
     "TendonShape",

@@ -1,10 +1,13 @@
 """Description of a robot: immutable plain data, checked when it is built; no solver in sight."""
 
+from tactr.robot.along import Along
 from tactr.robot.fitted import Function, Spline
 from tactr.robot.load import DistributedLoad, Gravity, Load, PointLoad
 from tactr.robot.material import Material
+from tactr.robot.notches import AsymmetricNotches, SymmetricNotches
 from tactr.robot.piece import RoutingPiece
 from tactr.robot.piecewise import Piecewise
+from tactr.robot.rest import RestShape
 from tactr.robot.robot import Robot
 from tactr.robot.routing import Helix, PolarPolynomial, Polynomial, Routing, Straight
 from tactr.robot.section import Annulus, Rod, Section, Stiffness
@@ -12,7 +15,9 @@ from tactr.robot.tendon import Tendon, TensionProfile
 from tactr.robot.tube import Tube
 
 __all__ = [
+    "Along",
     "Annulus",
+    "AsymmetricNotches",
     "DistributedLoad",
     "Function",
     "Gravity",
@@ -23,6 +28,7 @@ __all__ = [
     "PointLoad",
     "PolarPolynomial",
     "Polynomial",
+    "RestShape",
     "Robot",
     "Rod",
     "Routing",
@@ -31,6 +37,7 @@ __all__ = [
     "Spline",
     "Stiffness",
     "Straight",
+    "SymmetricNotches",
     "Tendon",
     "TensionProfile",
     "Tube",
