@@ -35,6 +35,7 @@ if TYPE_CHECKING:
         Tendon,
         TensionProfile,
         Tube,
+        VaryingStiffness,
     )
     from tactr.statics import Prepared, Shape, Status, TendonShape, TipJacobian, TubeShape, solve
 
@@ -64,6 +65,7 @@ _HOME = {
         "Tendon",
         "TensionProfile",
         "Tube",
+        "VaryingStiffness",
     ),
     "tactr.statics": ("Prepared", "Shape", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"),
 }
@@ -105,6 +107,7 @@ __all__ = [
     "TipJacobian",
     "Tube",
     "TubeShape",
+    "VaryingStiffness",
     "examples",
     "load",
     "materials",

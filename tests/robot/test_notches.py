@@ -13,12 +13,16 @@ from tactr.robot.notches import one_sided, two_sided
 OUTER, INNER = 1.62e-3, 1.40e-3
 NITINOL = Material(E=50e9, nu=0.3, density=6450)
 NOTCHED: dict[str, Any] = {
-    "outer_diameter": OUTER, "inner_diameter": INNER, "depth": 1.2e-3, "cut": 0.4e-3, "uncut": 0.6e-3,
-}  # fmt: skip
+    "outer_diameter": OUTER,
+    "inner_diameter": INNER,
+    "depth": 1.2e-3,
+    "cut": 0.4e-3,
+    "uncut": 0.6e-3,
+}
 
 
 def integrals(low: float, high: float) -> tuple[float, float, float, float]:
-    """Area, first moment and second moments of the annulus between two chords y = low and y = high, by quadrature.
+    """Area, first and second moments of the annulus between two chords y = low and y = high, by quadrature.
 
     The width of the wall at y has square-root ends at the radii: y = r sin(t) makes it smooth.
     """
@@ -71,12 +75,18 @@ def test_the_equivalent_tube_bends_as_the_row_of_cuts(side: str, staggered: bool
         x, y = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}[side]
         bending = (wall.along, wall.across) if x else (wall.across, wall.along)
         return Stiffness(
-            EA=NITINOL.E * wall.area, GA=shear * wall.area, EI_x=NITINOL.E * bending[0], EI_y=NITINOL.E * bending[1],
-            GJ=shear * wall.torsion, neutral_axis=(sign * wall.centroid * x, sign * wall.centroid * y),
-        )  # fmt: skip
+            EA=NITINOL.E * wall.area,
+            GA=shear * wall.area,
+            EI_x=NITINOL.E * bending[0],
+            EI_y=NITINOL.E * bending[1],
+            GJ=shear * wall.torsion,
+            neutral_axis=(sign * wall.centroid * x, sign * wall.centroid * y),
+        )
 
     pieces: list[Any] = [(0.0, whole)]
-    for k in range(20):  # cuts in the middle of their periods, sides + - - + when staggered: no lever is favoured
+    for k in range(
+        20
+    ):  # cuts in the middle of their periods, sides + - - + when staggered: no lever is favoured
         pieces.append((k * 1e-3 + 0.3e-3, cut(-1.0 if staggered and k % 4 in (1, 2) else 1.0)))
         pieces.append((k * 1e-3 + 0.7e-3, whole))
     force, moment = (0.0, 0.0, -0.5), (1e-4, -2e-4, 3e-4)
@@ -112,7 +122,7 @@ def test_no_uncut_length_is_the_wall_alone() -> None:
 def test_symmetric_notches_bend_easily_one_way() -> None:
     k = SymmetricNotches(**{**NOTCHED, "depth": 0.6e-3}, side="+x").stiffness(NITINOL)
     whole = tactr.Annulus(OUTER, INNER).stiffness(NITINOL)
-    assert float(k.EI_y) < 0.3 * float(k.EI_x) < 0.3 * float(whole.EI_x)
+    assert k.EI_y < 0.3 * k.EI_x < 0.3 * whole.EI_x
     assert k.neutral_axis == (0.0, 0.0)
 
 

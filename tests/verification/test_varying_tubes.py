@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import tactr
-from tactr import Along, PointLoad, RestShape, Robot, Stiffness, Straight, Tendon, Tube
+from tactr import Along, PointLoad, RestShape, Robot, Stiffness, Straight, Tendon, Tube, VaryingStiffness
 
 LENGTH = 0.1
 EI = 2e-3
@@ -16,7 +16,9 @@ STIFF: dict[str, Any] = {"EA": 3e4, "GA": 1.2e4, "EI_x": EI, "EI_y": EI, "GJ": 1
 
 
 def tube(*, length: float = LENGTH, rest: Any = (0.0, 0.0, 0.0), **changes: Any) -> Tube:
-    return Tube("beam", length=length, section=Stiffness(**{**STIFF, **changes}), precurvature=rest)
+    varies = any(isinstance(q, Along) for q in changes.values())
+    section = (VaryingStiffness if varies else Stiffness)(**{**STIFF, **changes})
+    return Tube("beam", length=length, section=section, precurvature=rest)
 
 
 def solved(*tubes: Tube, tendons: Any = (), loads: Any = ()) -> tactr.Shape:
@@ -31,7 +33,8 @@ def tip_deflection(beam: Tube, force: float = 1e-5) -> float:
 
 
 def test_linearly_tapered_cantilever() -> None:
-    # EI(s) = EI (1 - s/(2L)): w = int (L-s)^2/EI ds = L^3/EI int x^2 2/(1+x) dx = L^3/EI (2 ln 2 - 1); shear adds L/GA
+    # EI(s) = EI (1 - s/(2L)): w = int (L-s)^2/EI ds = L^3/EI int x^2 2/(1+x) dx = L^3/EI (2 ln 2 - 1); shear
+    # adds L/GA
     beam = tube(EI_y=Along.linear([0.0, LENGTH], [EI, EI / 2]))
     expected = LENGTH**3 / EI * (2 * math.log(2) - 1) + LENGTH / STIFF["GA"]
     assert tip_deflection(beam) == pytest.approx(expected, rel=1e-7)
@@ -41,7 +44,7 @@ def test_conical_cantilever_from_a_function() -> None:
     # a cone of diameters D to D/2: I = I0 (1 - s/2L)^4, w = F int (L-s)^2 / EI ds = F L^3/(3 EI0) * 2 (D/d)
     material = tactr.Material(E=50e9, G=20e9)
     base = 1e-3
-    cone = Stiffness.function(
+    cone = VaryingStiffness.function(
         lambda s: tactr.Rod(base * (1 - s / (2 * LENGTH))), LENGTH, material=material
     )
     beam = Tube("beam", length=LENGTH, section=cone)
@@ -65,13 +68,9 @@ def test_stepped_material_stretches_and_twists() -> None:
     beam = Tube("beam", length=LENGTH, section=rod, material=[(0.0, one), (0.07, two)])
     shape = solved(beam, loads=[PointLoad("beam", force=(0, 0, 0.1), moment=(0, 0, 1e-3))])
     k, weak = rod.stiffness(one), rod.stiffness(two)
-    assert shape.tip_position[2] - LENGTH == pytest.approx(
-        0.1 * (0.07 / float(k.EA) + 0.03 / float(weak.EA)), rel=1e-8
-    )
+    assert shape.tip_position[2] - LENGTH == pytest.approx(0.1 * (0.07 / k.EA + 0.03 / weak.EA), rel=1e-8)
     d1 = shape.tubes[0].frames[-1][:, 0]
-    assert math.atan2(d1[1], d1[0]) == pytest.approx(
-        1e-3 * (0.07 / float(k.GJ) + 0.03 / float(weak.GJ)), rel=1e-8
-    )
+    assert math.atan2(d1[1], d1[0]) == pytest.approx(1e-3 * (0.07 / k.GJ + 0.03 / weak.GJ), rel=1e-8)
 
 
 def test_fine_steps_converge_to_the_smooth_taper() -> None:
@@ -85,7 +84,7 @@ def test_fine_steps_converge_to_the_smooth_taper() -> None:
     errors = []
     for count in (8, 16, 32):
         starts = np.arange(count) * LENGTH / count
-        steps = Along.steps(starts, stiffness(starts + LENGTH / (2 * count)))
+        steps = Along.steps(starts.tolist(), stiffness(starts + LENGTH / (2 * count)))
         found = solved(tube(EI_x=steps, EI_y=steps), tendons=pull, loads=load).tip_position
         errors.append(float(np.linalg.norm(found - exact)))
     # second order: the midpoint rule
@@ -126,7 +125,8 @@ def test_tendon_pulls_a_tube_with_its_neutral_axis_off_the_centreline() -> None:
     offset, lever, tension = 0.4e-3, -1.1e-3, 3.0
     beam = tube(neutral_axis=(0.0, offset))
     shape = solved(beam, tendons=[Tendon("pull", "beam", Straight(0.0, lever), tension=tension)])
-    # a single arc: N = -tension at y = lever about the neutral axis; stretch of the centreline from that of the axis
+    # a single arc: N = -tension at y = lever about the neutral axis; stretch of the centreline from that of
+    # the axis
     curvature = -tension * (lever - offset) / EI
     axis_stretch = -tension / STIFF["EA"]
     found = shape.tubes[0]
@@ -158,13 +158,13 @@ def test_wound_neutral_axis_in_two_tubes_balances() -> None:
     inner = Tube(
         "inner",
         length=0.14,
-        section=Stiffness(**{**STIFF, "EI_x": taper, "EI_y": taper}, neutral_axis=(wavy, 1e-4)),
+        section=VaryingStiffness(**{**STIFF, "EI_x": taper, "EI_y": taper}, neutral_axis=(wavy, 1e-4)),
         precurvature=RestShape.from_centreline(lambda s: (20 * s**3, 3 * s**2, s - 10 * s**3), 0.14),
         translation=-0.03,
     )
     outer = tube(rest=(6.0, 0.0, 0.0))
     tendons = [Tendon("pull", "inner", Straight(1e-3, 0.0), tension=1.0)]
-    force = np.array([0.02, -0.03, 0.01])
+    force = (0.02, -0.03, 0.01)
     shape = solved(outer, inner, tendons=tendons, loads=[PointLoad("inner", force=force)])
     tip = shape.tubes[1]
     beyond = shape.s > LENGTH + 1e-9

@@ -34,8 +34,8 @@ def cut(robot: Robot) -> Sections:
         if any(not stretch.constant or any(stretch.powers[0][8:]) for stretch in tube.stretches):
             raise RobotError(
                 f"tubes[{i}]",
-                f"{tube.name!r} varies smoothly, or has a rest shear, a rest stretch or a neutral axis off its "
-                "centreline: more than tactr.reference can do",
+                f"{tube.name!r} varies smoothly, or has a rest shear, a rest stretch or a neutral axis off "
+                "its centreline: more than tactr.reference can do",
                 "stiffness and precurvature in constant pieces",
                 value=tube,
             )

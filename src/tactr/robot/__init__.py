@@ -13,6 +13,7 @@ from tactr.robot.routing import Helix, PolarPolynomial, Polynomial, Routing, Str
 from tactr.robot.section import Annulus, Rod, Section, Stiffness
 from tactr.robot.tendon import Tendon, TensionProfile
 from tactr.robot.tube import Tube
+from tactr.robot.varying import VaryingStiffness
 
 __all__ = [
     "Along",
@@ -41,4 +42,5 @@ __all__ = [
     "Tendon",
     "TensionProfile",
     "Tube",
+    "VaryingStiffness",
 ]

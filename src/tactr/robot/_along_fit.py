@@ -44,7 +44,9 @@ def fit_along(
     size[size == 0.0] = 1.0
     try:
         pieces = [
-            piece for span in pairwise((0.0, *breaks, length)) for piece in _pieces(sample, size, *span, length)
+            piece
+            for span in pairwise((0.0, *breaks, length))
+            for piece in _pieces(sample, size, *span, length)
         ]
     except Rough as rough:
         raise RobotError(

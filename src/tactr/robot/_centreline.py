@@ -1,8 +1,8 @@
 """Rest strains from a centreline, and back.
 
 With a frame, u* is the vector of R^T R' and v* = R^T p'. Without one it is the frame that turns least: d3 =
-p'/|p'|, d1' = -(d1 . d3') d3 (Bishop, There is more than one way to frame a curve, 1975), hence u* = (-d2 . d3',
-d1 . d3', 0) and v* = |p'| e3.
+p'/|p'|, d1' = -(d1 . d3') d3 (Bishop, There is more than one way to frame a curve, 1975), hence u* = (-d2 .
+d3', d1 . d3', 0) and v* = |p'| e3.
 """
 
 from __future__ import annotations
@@ -85,7 +85,8 @@ def _vector(skew: np.ndarray) -> np.ndarray:
 class _Smooth:
     """A function with its derivatives, from Chebyshev series of high degree on halved spans.
 
-    Series are kept in Chebyshev form, and cut where rounding begins: second derivatives lose the fewest digits.
+    Series are kept in Chebyshev form, and cut where rounding begins: second derivatives lose the fewest
+    digits.
     """
 
     def __init__(
@@ -144,7 +145,7 @@ def _series(function: Callable[[float], Any], first: float, last: float) -> tupl
     coefficients = to_chebyshev @ values
     tail = float(np.max(np.abs(coefficients[-3:])))
     size = np.max(np.abs(coefficients), axis=1)
-    kept = int(np.max(np.nonzero(size > 4e-16 * size.max())[0])) + 1
+    kept = int(np.max(np.nonzero(size >= 4e-16 * size.max())[0])) + 1
     return _Series(coefficients[:kept], first, last), tail
 
 

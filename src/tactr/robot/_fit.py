@@ -119,8 +119,8 @@ def interpolate(
 ) -> tuple[list[Interpolant], float]:
     """Interpolants over consecutive ``knots`` (m), of at most ``count`` coefficients, and the largest error.
 
-    Errors are Euclidean norms over the components. negligible: of the last Chebyshev coefficients together, which
-    are then left out. Raises Rough if the tolerance is not met.
+    Errors are Euclidean norms over the components. negligible: of the last Chebyshev coefficients together,
+    which are then left out. Raises Rough if the tolerance is not met.
     """
     waiting = list(pairwise(knots))[::-1]
     shortest = (knots[-1] - knots[0]) * 1e-6
@@ -141,9 +141,7 @@ def interpolate(
     return pieces, worst
 
 
-def _interpolant(
-    sample: Sampler, start: float, end: float, count: int, negligible: float
-) -> Interpolant:
+def _interpolant(sample: Sampler, start: float, end: float, count: int, negligible: float) -> Interpolant:
     width = end - start
     places = start + width * basis(count).nodes
     places[-1] = end

@@ -20,7 +20,9 @@ def of_points(points: Any, sigma: Any, frames: Any, smoothing: Any) -> Found:
     gaps = np.linalg.norm(np.diff(rows, axis=0), axis=1)
     if not np.all(gaps > 0):
         k = int(np.argmin(gaps)) + 1
-        raise RobotError(f"points[{k}]", "it is the point before it again", "points that differ", value=points)
+        raise RobotError(
+            f"points[{k}]", "it is the point before it again", "points that differ", value=points
+        )
     smoothing = check.real("smoothing", smoothing, "m", least=0)
     if sigma is None:
         if frames is not None:

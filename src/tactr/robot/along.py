@@ -63,7 +63,9 @@ class Along:
         """Straight between ``values`` at ``sigma`` (m, from 0 on), defined to the last. Raises RobotError."""
         places, heights = _samples(sigma, values, fewest=2)
         slopes = np.diff(heights) / np.diff(places)
-        parts = [(place, (height, float(k))) for place, height, k in zip(places, heights, slopes, strict=False)]
+        parts = [
+            (place, (height, float(k))) for place, height, k in zip(places, heights, slopes, strict=False)
+        ]
         return cls(parts, places[-1])
 
     @classmethod
@@ -88,14 +90,14 @@ class Along:
         """A Python ``function`` of sigma (m), fitted on 0 to ``length`` (m) and not called again.
 
         The fit is off by at most 1e-9 of the function's largest value, and has at most 256 parts. breaks:
-        places in m of its jumps and kinks. Raises RobotError where it fails, is not a finite number, or is too
-        rough.
+        places in m of its jumps and kinks. Raises RobotError where it fails, is not a finite number, or is
+        too rough.
         """
         (fitted,) = fit_along(lambda sigma: (function(sigma),), 1, length, breaks=breaks)
         return cls(fitted, check.real("length", length, "m", above=0))
 
     def __call__(self, sigma: float | Sequence[float] | np.ndarray) -> np.ndarray:
-        """Values (...) at ``sigma`` (...) in m; at a jump, the value after it. RobotError outside 0 to end."""
+        """Values (...) at ``sigma`` (...) in m; at a jump the value after it. RobotError outside [0, end]."""
         places = np.asarray(sigma, dtype=float)
         if not np.all((places >= -EDGE) & (places <= self.end + EDGE)):
             raise RobotError(
@@ -117,7 +119,9 @@ class Along:
     def least(self, start: float, end: float) -> float:
         """The least value between ``start`` and ``end`` (m), to rounding."""
         ends = [*(part[0] for part in self.parts[1:]), math.inf]
-        spans = [(max(start, part[0]), min(last, end), part) for part, last in zip(self.parts, ends, strict=True)]
+        spans = [
+            (max(start, part[0]), min(last, end), part) for part, last in zip(self.parts, ends, strict=True)
+        ]
         return min(_least(part, first, last) for first, last, part in spans if first < last)
 
 

@@ -1,22 +1,22 @@
 """Notched tubes: the section that a row of cuts and uncut rings is equivalent to.
 
-A cut to depth g, measured from the tube's outside across the diameter, leaves of the annulus what lies beyond a
-chord. Area, centroid and second moments of the circular segments that the chord cuts from the outer and the inner
-circle (opening angle phi, radius r, A = r^2 (phi - sin phi) / 2, centroid at 4 r sin^3(phi/2) / (3 (phi - sin
-phi))) give those of the wall that is left: York, Swaney, Gilbert and Webster, A wrist for needle-sized surgical
-robots (ICRA 2015); Swaney, York, Gilbert, Burgner-Kahrs and Webster, Design, fabrication, and testing of a
-needle-sized wrist for surgical instruments (J. Med. Devices 11, 2017); Eastwood, Azimian, Carrillo, Looi, Naguib
-and Drake, Kinetostatic design of asymmetric notch joints for surgical robots (IROS 2016). Cuts from both sides, of
-the kind of Kutzer et al., Design of a new cable-driven manipulator with a large open lumen (ICRA 2011), and
-Murphy et al., Design and kinematic characterization of a surgical manipulator (Robotica 32, 2014): both segments
-removed from the annulus.
+A cut to depth g, measured from the tube's outside across the diameter, leaves of the annulus what lies beyond
+a chord. Area, centroid and second moments of the circular segments that the chord cuts from the outer and the
+inner circle (opening angle phi, radius r, A = r^2 (phi - sin phi) / 2, centroid at 4 r sin^3(phi/2) / (3 (phi
+- sin phi))) give those of the wall that is left: York, Swaney, Gilbert and Webster, A wrist for needle-sized
+surgical robots (ICRA 2015); Swaney, York, Gilbert, Burgner-Kahrs and Webster, Design, fabrication, and
+testing of a needle-sized wrist for surgical instruments (J. Med. Devices 11, 2017); Eastwood, Azimian,
+Carrillo, Looi, Naguib and Drake, Kinetostatic design of asymmetric notch joints for surgical robots (IROS
+2016). Cuts from both sides, of the kind of Kutzer et al., Design of a new cable-driven manipulator with a
+large open lumen (ICRA 2011), and Murphy et al., Design and kinematic characterization of a surgical
+manipulator (Robotica 32, 2014): both segments removed from the annulus.
 
 Along a period the sections are in series, so their compliances add. With the neutral axis at y from the
-centreline, curvature and stretch of the centreline are (M - y N) / EI and N / EA - y (M - y N) / EI; averaged over
-cut and uncut lengths: 1/EI' = <1/EI>, y' = EI' <y/EI>, 1/EA' = <1/EA + y^2/EI> - y'^2/EI'. A cut wall is open
-and twists as thin strips, J = sum of width t^3 / 3 (Timoshenko and Goodier, Theory of Elasticity, section 108);
-that the rings hold it from warping, and that it twists about its shear centre, is left out: a short cut is stiffer
-in torsion. Shear factor 1, as for Annulus.
+centreline, curvature and stretch of the centreline are (M - y N) / EI and N / EA - y (M - y N) / EI; averaged
+over cut and uncut lengths: 1/EI' = <1/EI>, y' = EI' <y/EI>, 1/EA' = <1/EA + y^2/EI> - y'^2/EI'. A cut wall is
+open and twists as thin strips, J = sum of width t^3 / 3 (Timoshenko and Goodier, Theory of Elasticity,
+section 108); that the rings hold it from warping, and that it twists about its shear centre, is left out: a
+short cut is stiffer in torsion. Shear factor 1, as for Annulus.
 """
 
 from __future__ import annotations
@@ -34,8 +34,11 @@ SIDES = {"+x": (1.0, 0.0), "-x": (-1.0, 0.0), "+y": (0.0, 1.0), "-y": (0.0, -1.0
 
 
 class WallShape(NamedTuple):
-    """What a cut leaves: area (m^2), its centroid from the centreline towards the cut (m, negative), second moments
-    (m^4) about axes through the centroid, across the cut's direction and along it, torsion constant (m^4)."""
+    """What a cut leaves, in m^2, m and m^4.
+
+    centroid: from the centreline towards the cut (negative). across, along: second moments about axes through
+    the centroid, across the cut's direction and along it. torsion: the torsion constant.
+    """
 
     area: float
     centroid: float
@@ -48,10 +51,10 @@ class WallShape(NamedTuple):
 class AsymmetricNotches:
     """A tube with cuts from one side: depth, cut and uncut lengths in m, side "+x", "-x", "+y" or "-y".
 
-    Of every period ``cut`` + ``uncut`` of the length, ``cut`` has the wall cut away from ``side`` to ``depth``,
-    measured from the outside: more than the wall, less than the diameter without the wall. With ``staggered``,
-    every other cut is from the opposite side (bidirectional), and the neutral axis stays on the centreline.
-    Raises RobotError. Formulas and sources: the description of tactr.robot.notches.
+    Of every period ``cut`` + ``uncut`` of the length, ``cut`` has the wall cut away from ``side`` to
+    ``depth``, measured from the outside: more than the wall, less than the diameter without the wall. With
+    ``staggered``, every other cut is from the opposite side (bidirectional), and the neutral axis stays on
+    the centreline. Raises RobotError. Formulas and sources: the description of tactr.robot.notches.
     """
 
     outer_diameter: float
@@ -68,7 +71,9 @@ class AsymmetricNotches:
             wall = 0.5 * (self.outer_diameter - self.inner_diameter)
             _check_cuts(self, most=self.outer_diameter - wall)
             if not isinstance(self.staggered, bool):
-                raise RobotError("staggered", f"{check.show(self.staggered)} is no truth value", "true or false")
+                raise RobotError(
+                    "staggered", f"{check.show(self.staggered)} is no truth value", "true or false"
+                )
 
     @property
     def wall(self) -> WallShape:
@@ -84,8 +89,8 @@ class AsymmetricNotches:
 class SymmetricNotches:
     """A tube with pairs of opposite cuts, from ``side`` and the side across: it bends both ways.
 
-    Fields as of AsymmetricNotches; ``depth`` of each cut is more than the wall and less than the radius. Raises
-    RobotError.
+    Fields as of AsymmetricNotches; ``depth`` of each cut is more than the wall and less than the radius.
+    Raises RobotError.
     """
 
     outer_diameter: float
@@ -180,21 +185,21 @@ def _equivalent(
     def series(of_wall: float, of_whole: float) -> float:
         return 1 / (share / of_wall + (1 - share) / of_whole)
 
-    EI = series(E * wall.across, float(whole.EI_x))
-    along = series(E * wall.along, float(whole.EI_x))
+    EI = series(E * wall.across, whole.EI_x)
+    along = series(E * wall.along, whole.EI_x)
     bent = share * wall.centroid / (E * wall.across)  # curvature per axial force, on average
     shift = 0.0 if staggered else bent * EI
     stretched = share * (1 / (E * wall.area) + wall.centroid**2 / (E * wall.across))
-    EA = 1 / (stretched + (1 - share) / float(whole.EA) - shift**2 / EI)
+    EA = 1 / (stretched + (1 - share) / whole.EA - shift**2 / EI)
     dx, dy = SIDES[notches.side]
     x_side = dx != 0
     density = None if material.density is None else material.density * _mean_area(notches, wall, share)
     return Stiffness(
         EA=EA,
-        GA=series(G * wall.area, float(whole.GA)),
+        GA=series(G * wall.area, whole.GA),
         EI_x=along if x_side else EI,
         EI_y=EI if x_side else along,
-        GJ=series(G * wall.torsion, float(whole.GJ)),
+        GJ=series(G * wall.torsion, whole.GJ),
         neutral_axis=(shift * dx, shift * dy),
         outer_diameter=notches.outer_diameter,
         inner_diameter=notches.inner_diameter,
@@ -221,4 +226,6 @@ def _check_cuts(notches: AsymmetricNotches | SymmetricNotches, *, most: float) -
     depth = check.real("depth", notches.depth, "m", above=wall, below=most)
     cut = check.real("cut", notches.cut, "m", above=0)
     uncut = check.real("uncut", notches.uncut, "m", least=0)
-    check.store(notches, depth=depth, cut=cut, uncut=uncut, side=check.choice("side", notches.side, list(SIDES)))
+    check.store(
+        notches, depth=depth, cut=cut, uncut=uncut, side=check.choice("side", notches.side, list(SIDES))
+    )

@@ -10,11 +10,11 @@ from tactr.robot import _check as check
 from tactr.robot.along import EDGE, Along
 from tactr.robot.material import Material
 from tactr.robot.pieces import Pieces, check_starts
-from tactr.robot.section import Section, Stiffness
+from tactr.robot.section import UNITS, Section, Stiffness
+from tactr.robot.varying import VaryingStiffness
 
 SECTION = "an Annulus, a Rod or a Stiffness"
 MATERIAL = "a Material, such as tactr.materials.nitinol"
-UNITS = {"EA": "N", "GA": "N", "EI_x": "N m^2", "EI_y": "N m^2", "GJ": "N m^2"}
 
 
 class Part(NamedTuple):
@@ -23,7 +23,7 @@ class Part(NamedTuple):
     start: float
     end: float
     section: Section
-    stiffness: Stiffness
+    stiffness: Stiffness | VaryingStiffness
     field: str
 
 
@@ -34,7 +34,9 @@ def plain_section(value: object, length: float) -> Section | Pieces[Section]:
 
 def plain_material(value: object, length: float) -> Material | Pieces[Material] | None:
     """A material, or pieces of several, checked; None stays."""
-    return None if value is None else _one_or_pieces("material", value, Material, "material", MATERIAL, length)
+    return (
+        None if value is None else _one_or_pieces("material", value, Material, "material", MATERIAL, length)
+    )
 
 
 def _one_or_pieces(field: str, value: object, kind: type, what: str, expected: str, length: float) -> Any:
@@ -78,7 +80,9 @@ def parts_of(
         try:
             stiffness = found.stiffness(materials[_at(materials, start)][1])
         except RobotError as error:
-            raise (RobotError(field, error.problem, error.expected) if error.field == "section" else error) from None
+            raise (
+                RobotError(field, error.problem, error.expected) if error.field == "section" else error
+            ) from None
         parts.append(Part(start, end, found, stiffness, field))
     return tuple(parts)
 
@@ -90,7 +94,7 @@ def _at(pieces: Sequence[tuple[float, Any]], start: float) -> int:
 def check_parts(parts: Sequence[Part], length: float) -> None:
     """Refuse what gives no stiffness, or one that does not reach the part's end or is not above 0 there."""
     for part in parts:
-        if not isinstance(part.stiffness, Stiffness):
+        if not isinstance(part.stiffness, (Stiffness, VaryingStiffness)):
             raise RobotError(
                 part.field,
                 f"its stiffness() gives {check.show(part.stiffness)}",
@@ -117,5 +121,8 @@ def _check_quantity(part: Part, name: str, quantity: float | Along, unit: str) -
     least = quantity.least(part.start, part.end)
     if unit and not least > 0:
         raise RobotError(
-            field, f"it falls to {check.show(least, unit)}", f"values in {unit} above 0 all along", value=least
+            field,
+            f"it falls to {check.show(least, unit)}",
+            f"values in {unit} above 0 all along",
+            value=least,
         )

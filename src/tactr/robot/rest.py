@@ -30,8 +30,8 @@ class RestShape:
     """Rest strains of a tube, in its own material frame, over its own arc length sigma.
 
     u: rest curvature and twist u* in 1/m; v: rest shear and stretch v*, (0, 0, 1) for none, v_z above 0. Each
-    component is a number or an Along. Without load the tube's centreline and frame are p' = R v*, R' = R [u*].
-    Raises RobotError.
+    component is a number or an Along. Without load the tube's centreline and frame are p' = R v*, R' = R
+    [u*]. Raises RobotError.
     """
 
     u: Quantities = (0.0, 0.0, 0.0)
@@ -61,10 +61,10 @@ class RestShape:
     def helix(cls, radius: float, pitch: float, *, start: float = 0.0) -> RestShape:
         """A helix of ``radius`` and ``pitch`` (rise of one turn; negative is left-handed; 0: a circle), in m.
 
-        u* = (k, 0, t) with curvature k = r / (r^2 + c^2), torsion t = c / (r^2 + c^2), c = pitch / (2 pi), exact
-        and constant: the material frame turns with the curve, x along its binormal and -y along its normal, so
-        that a straight tendon keeps its side of the coil. start: m, the tube is straight before it. Raises
-        RobotError. Source: do Carmo, Differential Geometry of Curves and Surfaces, section 1.5.
+        u* = (k, 0, t) with curvature k = r / (r^2 + c^2), torsion t = c / (r^2 + c^2), c = pitch / (2 pi),
+        exact and constant: the material frame turns with the curve, x along its binormal and -y along its
+        normal, so that a straight tendon keeps its side of the coil. start: m, the tube is straight before
+        it. Raises RobotError. Source: do Carmo, Differential Geometry of Curves and Surfaces, section 1.5.
         """
         with check.owned("RestShape.helix"):
             radius = check.real("radius", radius, "m", above=0)
@@ -72,7 +72,9 @@ class RestShape:
             begin = check.real("start", start, "m", least=0)
         square = radius**2 + rise**2
         u = (radius / square, 0.0, rise / square)
-        return cls(u) if begin == 0 else cls(tuple(Along.steps((0.0, begin), (0.0, c)) if c else c for c in u))
+        return (
+            cls(u) if begin == 0 else cls(tuple(Along.steps((0.0, begin), (0.0, c)) if c else c for c in u))
+        )
 
     @classmethod
     def from_centreline(
@@ -88,11 +90,11 @@ class RestShape:
 
         frame: s -> R* (3 x 3, columns d1, d2, d3 in the axes of p*), the material frame; then u* = (R*^T R*')
         as a vector and v* = R*^T p*'. Without it, the frame that turns least (d3 along p*', no twist), and
-        v* = (0, 0, |p*'|). s is the material's arc length: |p*'| other than 1 is a rest stretch. breaks: places in
-        m where p*'' or R*' jumps. start: m, where on the tube it begins; straight before. The fit of u* and v* is
-        off by at most 1e-9 of their sizes; that its centreline keeps within 1e-7 of the length of p* is
-        checked. Raises RobotError. Source: the procedure of Moradkhani et al. 2025 (ExoNav II): u*, v* from
-        p*, R*.
+        v* = (0, 0, |p*'|). s is the material's arc length: |p*'| other than 1 is a rest stretch. breaks:
+        places in m where p*'' or R*' jumps. start: m, where on the tube it begins; straight before. The fit
+        of u* and v* is off by at most 1e-9 of their sizes; that its centreline keeps within 1e-7 of the
+        length of p* is checked. Raises RobotError. Source: the procedure of Moradkhani et al. 2025 (ExoNav
+        II): u*, v* from p*, R*.
         """
         from tactr.robot._centreline import of_functions
 
@@ -113,8 +115,9 @@ class RestShape:
 
         Its length is the spline's own, and v* = (0, 0, 1), unless ``sigma`` (n,) in m gives the arc length of
         every point, from 0 on. frames: (n, 3, 3), R* at every point, joined by a rotation spline; needs
-        ``sigma``; without them the frame turns least. smoothing: m, the root mean square distance that the spline may
-        keep from measured points (only without ``sigma``). start, tolerances, errors as in from_centreline.
+        ``sigma``; without them the frame turns least. smoothing: m, the root mean square distance that the
+        spline may keep from measured points (only without ``sigma``). start, tolerances, errors as in
+        from_centreline.
         """
         from tactr.robot._points import of_points
 
@@ -168,7 +171,7 @@ def _components(field: str, value: object, unit: str) -> Quantities:
 
 
 def _along(parts: Parts, rest: float, begin: float, length: float, negligible: float) -> Quantity:
-    """A component from the fit of its difference from ``rest``; a number where the difference is negligible."""
+    """A component from the fit of its difference from ``rest``; a number where that is negligible."""
     if all(len(powers) == 1 and abs(powers[0]) <= negligible for _, powers in parts):
         return rest
     before = [(0.0, (rest,))] if begin > 0 else []

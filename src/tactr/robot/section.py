@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
-from tactr.robot._along_fit import fit_along
-from tactr.robot.along import Along
 from tactr.robot.material import Material
+
+if TYPE_CHECKING:
+    from tactr.robot.varying import VaryingStiffness
+
+UNITS = {"EA": "N", "GA": "N", "EI_x": "N m^2", "EI_y": "N m^2", "GJ": "N m^2"}
 
 
 @runtime_checkable
@@ -24,7 +26,7 @@ class Section(Protocol):
     @property
     def inner_diameter(self) -> float | None: ...
 
-    def stiffness(self, material: Material | None = None) -> Stiffness:
+    def stiffness(self, material: Material | None = None) -> Stiffness | VaryingStiffness:
         """Stiffness of the section in ``material``; RobotError where a material is needed and missing."""
         ...
 
@@ -34,65 +36,30 @@ class Stiffness:
     """Stiffness of a section given directly; it is also a section itself, and then needs no material.
 
     EA (axial) and GA (shear, both directions) in N; EI_x, EI_y (bending about the tube's own x and y axes
-    through the neutral axis) and GJ (torsion) in N m^2; all above 0. Each is a number, or an Along: a function
-    of the tube's own arc length. neutral_axis: (x, y) in m, where an axial force bends nothing, from the
-    centreline in the tube's material frame; numbers or Alongs. There n3 = EA (v3 - v3* + (u - u*)_x y - (u -
-    u*)_y x) acts, which adds (y n3, -x n3) to the moment about the centreline. outer_diameter, inner_diameter
-    in m, or None when unknown: the fit of tubes in each other is then not checked. linear_density in kg/m, or
-    None when unknown. Raises RobotError.
+    through the neutral axis) and GJ (torsion) in N m^2; all above 0. neutral_axis: (x, y) in m, where an
+    axial force bends nothing, from the centreline in the tube's material frame: there n3 = EA (v3 - v3* + (u
+    - u*)_x y - (u - u*)_y x) acts, which adds (y n3, -x n3) to the moment about the centreline.
+    outer_diameter, inner_diameter in m, or None when unknown: the fit of tubes in each other is then not
+    checked. linear_density in kg/m, or None when unknown. Raises RobotError.
     """
 
-    EA: float | Along
-    GA: float | Along
-    EI_x: float | Along
-    EI_y: float | Along
-    GJ: float | Along
-    neutral_axis: tuple[float | Along, float | Along] = (0.0, 0.0)
+    EA: float
+    GA: float
+    EI_x: float
+    EI_y: float
+    GJ: float
+    neutral_axis: tuple[float, float] = (0.0, 0.0)
     outer_diameter: float | None = None
     inner_diameter: float | None = None
     linear_density: float | None = None
 
     def __post_init__(self) -> None:
         with check.owned("Stiffness"):
-            for field, unit in (
-                ("EA", "N"),
-                ("GA", "N"),
-                ("EI_x", "N m^2"),
-                ("EI_y", "N m^2"),
-                ("GJ", "N m^2"),
-            ):
-                check.store(self, **{field: _positive(field, getattr(self, field), unit)})
-            check.store(self, neutral_axis=_neutral_axis(self.neutral_axis))
-            if self.outer_diameter is not None:
-                check.store(
-                    self, outer_diameter=check.real("outer_diameter", self.outer_diameter, "m", above=0)
-                )
-            if self.inner_diameter is not None:
-                bore = check.real("inner_diameter", self.inner_diameter, "m", least=0)
-                check.store(self, inner_diameter=bore)
-                _check_wall(self.outer_diameter, bore)
-            if self.linear_density is not None:
-                density = check.real("linear_density", self.linear_density, "kg/m", above=0)
-                check.store(self, linear_density=density)
-
-    @classmethod
-    def function(
-        cls,
-        function: Callable[[float], Section],
-        length: float,
-        *,
-        material: Material | None = None,
-        breaks: Sequence[float] = (),
-    ) -> Stiffness:
-        """A section that varies smoothly: ``function`` takes the tube's arc length sigma (m) to a section.
-
-        Its constants are fitted on 0 to ``length`` (m) within 1e-9 of their largest values, and the function
-        is not called again. breaks: places in m of jumps and kinks. The diameters are the largest outside and
-        the least bore, for the fit of tubes in each other; the linear density stays unknown unless it is
-        constant. Raises RobotError.
-        """
-        with check.owned("Stiffness"):
-            return _fitted(cls, function, length, material, breaks)
+            for field, unit in UNITS.items():
+                check.store(self, **{field: check.real(field, getattr(self, field), unit, above=0)})
+            x, y = check.numbers("neutral_axis", self.neutral_axis, "m", fewest=2, most=2)
+            check.store(self, neutral_axis=(x, y))
+            check_rest(self)
 
     def stiffness(self, material: Material | None = None) -> Stiffness:
         """Itself; ``material`` is not used."""
@@ -147,67 +114,16 @@ class Rod:
         return _round(self.diameter, 0.0, material)
 
 
-def _positive(field: str, value: object, unit: str) -> float | Along:
-    if not isinstance(value, Along):
-        return check.real(field, value, unit, above=0)
-    if value.end == math.inf:
-        return value  # a polynomial without end: the tube that uses it checks it
-    least = value.least(0.0, value.end)
-    if not least > 0:
-        raise RobotError(
-            field, f"it falls to {check.show(least, unit)}", f"values in {unit} above 0 all along", value=value
-        )
-    return value
-
-
-def _neutral_axis(value: object) -> tuple[float | Along, float | Along]:
-    expected = "(x, y) in m"
-    entries = check.row("neutral_axis", value, expected)
-    if len(entries) != 2:
-        raise RobotError("neutral_axis", f"{len(entries)} entries found", expected, value=value)
-    x, y = (
-        entry if isinstance(entry, Along) else check.real(f"neutral_axis[{k}]", entry, "m")
-        for k, entry in enumerate(entries)
-    )
-    return x, y
-
-
-_CONSTANTS = ("EA", "GA", "EI_x", "EI_y", "GJ")
-
-
-def _fitted(
-    kind: type[Stiffness],
-    function: Callable[[float], Section],
-    length: float,
-    material: Material | None,
-    breaks: Sequence[float],
-) -> Stiffness:
-    seen: list[Stiffness] = []
-
-    def constants(sigma: float) -> list[float | Along]:
-        section = function(sigma)
-        if isinstance(section, type) or not isinstance(section, Section):
-            raise RobotError(
-                "function",
-                f"it returned {check.show(section)} at sigma = {sigma:.9g} m",
-                "an Annulus, a Rod or another section",
-                value=section,
-            )
-        stiffness = section.stiffness(material)
-        seen.append(stiffness)
-        return [*(getattr(stiffness, name) for name in _CONSTANTS), *stiffness.neutral_axis]
-
-    fitted = [Along(parts, length) for parts in fit_along(constants, 7, length, breaks=breaks)]
-    widths = [s.outer_diameter for s in seen if s.outer_diameter is not None]
-    bores = [s.inner_diameter for s in seen if s.inner_diameter is not None]
-    densities = {s.linear_density for s in seen}
-    return kind(
-        **dict(zip(_CONSTANTS, fitted[:5], strict=True)),
-        neutral_axis=(fitted[5], fitted[6]),
-        outer_diameter=max(widths) if len(widths) == len(seen) else None,
-        inner_diameter=min(bores) if len(bores) == len(seen) else None,
-        linear_density=densities.pop() if len(densities) == 1 else None,
-    )
+def check_rest(section: Stiffness | VaryingStiffness) -> None:
+    """Check and store diameters and linear density."""
+    bore, width, density = section.inner_diameter, section.outer_diameter, section.linear_density
+    if width is not None:
+        check.store(section, outer_diameter=check.real("outer_diameter", width, "m", above=0))
+    if bore is not None:
+        check.store(section, inner_diameter=check.real("inner_diameter", bore, "m", least=0))
+        _check_wall(section.outer_diameter, bore)
+    if density is not None:
+        check.store(section, linear_density=check.real("linear_density", density, "kg/m", above=0))
 
 
 def _check_wall(outer: float | None, bore: float) -> None:

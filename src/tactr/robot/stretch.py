@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from tactr.robot.parts import Part
     from tactr.robot.pieces import Pieces, Vector3
     from tactr.robot.section import Stiffness
+    from tactr.robot.varying import VaryingStiffness
 
 QUANTITIES = 13
 STRETCH = 10  # v*_z - 1 among them
@@ -24,8 +25,9 @@ STRETCH = 10  # v*_z - 1 among them
 class Stretch:
     """A tube from sigma = ``start`` (m) to the next stretch: ``powers`` of d = sigma - start, ascending.
 
-    powers[k] holds, for d^k, the coefficients of EI_x, EI_y, GJ (N m^2), EA, GA (N), u*_x, u*_y, u*_z (1/m), v*_x,
-    v*_y, v*_z - 1, and the neutral axis x, y (m), in the tube's material frame; 1 to 8 rows, one where constant.
+    powers[k] holds, for d^k, the coefficients of EI_x, EI_y, GJ (N m^2), EA, GA (N), u*_x, u*_y, u*_z (1/m),
+    v*_x, v*_y, v*_z - 1, and the neutral axis x, y (m), in the tube's material frame; 1 to 8 rows, one where
+    constant.
     """
 
     start: float
@@ -44,7 +46,7 @@ def starts_of(quantities: Iterable[float | Along], end: float) -> set[float]:
 
 
 def powers_at(quantities: Sequence[float | Along], start: float) -> np.ndarray:
-    """Coefficients (count, width) in powers of sigma - ``start`` (m) of quantities that do not jump after it."""
+    """Coefficients (count, width) in powers of sigma - ``start`` (m), of what holds from there on."""
     columns = [q.powers_at(start) if isinstance(q, Along) else (q,) for q in quantities]
     powers = np.zeros((max(len(column) for column in columns), len(columns)))
     for k, column in enumerate(columns):
@@ -72,7 +74,7 @@ def _rest_of(pieces: Pieces[Vector3]) -> RestShape:
     return RestShape((x, y, z))
 
 
-def _constants(stiffness: Stiffness) -> tuple[float | Along, ...]:
+def _constants(stiffness: Stiffness | VaryingStiffness) -> tuple[float | Along, ...]:
     k = stiffness
     return (k.EI_x, k.EI_y, k.GJ, k.EA, k.GA, *k.neutral_axis)
 

@@ -16,19 +16,18 @@ from tactr.robot.section import Section, Stiffness
 from tactr.robot.stretch import Stretch, stretches_of
 
 
-
 @dataclass(frozen=True)
 class Tube:
     """One tube (or rod) of the robot.
 
     name: by which tendons, loads and actuation refer to it. length: m, above 0. section: Annulus, Rod,
-    Stiffness, AsymmetricNotches or SymmetricNotches, or pieces ``(start, section)``. material: needed unless the
-    section is a Stiffness; one, or pieces ``(start, material)``. precurvature: rest curvature and twist u* =
-    (ux, uy, uz) in 1/m in the tube's own material frame (uz is the rest twist), either one triple, or pieces
-    ``(start, (ux, uy, uz))``, stored as pieces; or a RestShape, for smooth ones and rest shear and stretch.
-    Pieces hold from ``start`` on, where start is the tube's own arc length sigma in m from its proximal end and
-    the first start is 0. translation: m, the z of the proximal end, at most 0 (0: at the guide's exit, s = 0).
-    rotation: rad about +z, imposed at the proximal end. Raises RobotError.
+    Stiffness, VaryingStiffness, AsymmetricNotches or SymmetricNotches, or pieces ``(start, section)``.
+    material: needed unless the section is a stiffness; one, or pieces ``(start, material)``. precurvature:
+    rest curvature and twist u* = (ux, uy, uz) in 1/m in the tube's own material frame (uz is the rest twist),
+    either one triple, or pieces ``(start, (ux, uy, uz))``, stored as pieces; or a RestShape, for smooth ones
+    and rest shear and stretch. Pieces hold from ``start`` on, where start is the tube's own arc length sigma
+    in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
+    (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. Raises RobotError.
     """
 
     name: str
@@ -79,12 +78,15 @@ class Tube:
 
     @property
     def stiffness(self) -> Stiffness:
-        """Stiffness of the section, in N and N m^2. RobotError where there are several: see ``parts``."""
-        if len(self.parts) > 1:
+        """Stiffness of the section, in N and N m^2. RobotError where it is not the same all along."""
+        stiffness = self.parts[0].stiffness
+        if len(self.parts) > 1 or not isinstance(stiffness, Stiffness):
             raise RobotError(
-                "section", "it has several parts, each with a stiffness of its own", "tube.parts, or one section"
+                "section",
+                "its stiffness is not the same all along",
+                "tube.parts or tube.stretches to read it",
             )
-        return self.parts[0].stiffness
+        return stiffness
 
     @property
     def linear_density(self) -> float | None:

@@ -21,7 +21,9 @@ def assemble(robot: Robot) -> _core.PreparedRobot:
     index = {tube.name: i for i, tube in enumerate(robot.tubes)}
     return _core.PreparedRobot(
         tubes=_table([_tube_row(tube) for tube in robot.tubes], 3),
-        pieces=_table([row for tube in robot.tubes for row in _piece_rows(tube)], 2 + QUANTITIES * TUBE_COEFFICIENTS),
+        pieces=_table(
+            [row for tube in robot.tubes for row in _piece_rows(tube)], 2 + QUANTITIES * TUBE_COEFFICIENTS
+        ),
         tendons=_table([_tendon_row(robot, tendon, index) for tendon in robot.tendons], 5),
         routing=_table(
             [row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS
@@ -56,7 +58,9 @@ def _piece_rows(tube: Tube) -> list[list[float]]:
     rows = []
     for stretch in tube.stretches:
         absent = [0.0] * (QUANTITIES * (TUBE_COEFFICIENTS - len(stretch.powers)))
-        rows.append([stretch.start, len(stretch.powers), *(c for row in stretch.powers for c in row), *absent])
+        rows.append(
+            [stretch.start, len(stretch.powers), *(c for row in stretch.powers for c in row), *absent]
+        )
     return rows
 
 
