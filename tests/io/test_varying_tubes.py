@@ -86,7 +86,7 @@ def robot_of(values: dict[str, Any]) -> Robot:
 
 @pytest.mark.parametrize("format", ["yaml", "toml"])
 @pytest.mark.parametrize("name", TUBES)
-def test_round_trip(name: str, format: str) -> None:
+def test_round_trip(name: str, format: Any) -> None:
     robot = robot_of(TUBES[name])
     text = dumps(robot, format=format)
     with warnings.catch_warnings():
@@ -128,7 +128,8 @@ def test_rest_shapes() -> None:
     listed = ", ".join(f"[{x:g} mm, {y:g} mm, {z * 1e3:g} mm]" for x, y, z in points)
     rest = tube_in(f"{ROD}    precurvature: {{kind: points, points: [{listed}]}}\n").precurvature
     assert rest == RestShape()
-    framed = f"sigma: [0 mm, 30 mm, 60 mm, 90 mm, 120 mm], frames: [{', '.join(['[[1, 0, 0], [0, 1, 0], [0, 0, 1]]'] * 5)}]"
+    frames = ", ".join(["[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"] * 5)
+    framed = f"sigma: [0 mm, 30 mm, 60 mm, 90 mm, 120 mm], frames: [{frames}]"
     assert (
         tube_in(f"{ROD}    precurvature: {{kind: points, points: [{listed}], {framed}}}\n").precurvature
         == RestShape()
@@ -165,7 +166,7 @@ WRONG = [
     ),
     (STIFFNESS % "{sigma: [0 mm, 50 mm], values: [1 N m^2]}", "tubes[0].stiffness.EI_x.values", "1 entries"),
     (STIFFNESS % "{sigma: [0 mm, 50 mm]}", "tubes[0].stiffness.EI_x", "has sigma"),
-    ("    sections: []\n", "tubes[0].section", "empty"),
+    ("    sections: []\n", "tubes[0].sections", "empty"),
     (
         "    sections: [{from: 1 mm, diameter: 1 mm}]\n    material: nitinol\n",
         "tubes[0].sections[0]",
@@ -174,7 +175,7 @@ WRONG = [
     ("    sections: [{from: 0 mm}]\n    material: nitinol\n", "tubes[0].sections[0]", "none of the keys"),
     ("    sections: [{from: 0 mm, diameter: 1 mm}]\n    diameter: 1 mm\n", "tubes[0]", "diameter"),
     (
-        "    diameter: 1 mm\n    material: [{from: 0 mm, material: nitinol}, {from: 0.2 m, material: nitinol}]\n",
+        "    diameter: 1 mm\n    material: [{from: 0 mm, material: nylon}, {from: 0.2 m, material: nylon}]\n",
         "tubes[0].material[1]",
         "tube's end",
     ),

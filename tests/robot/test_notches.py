@@ -34,7 +34,8 @@ def integrals(low: float, high: float) -> tuple[float, float, float, float]:
         y, half, dy = radius * np.sin(t), radius * np.cos(t), radius * np.cos(t)
         f = np.array([2 * half, 2 * half * y, 2 * half * y**2, 2 * half**3 / 3])
         sums += sign * (f * dy) @ weights * (last - first) / 2
-    return tuple(sums)
+    area, moment, second, along = (float(number) for number in sums)
+    return area, moment, second, along
 
 
 @pytest.mark.parametrize("depth", [0.2e-3, 0.5e-3, 0.81e-3, 1.2e-3, 1.4e-3])

@@ -50,6 +50,8 @@ def build_tube(data: dict[str, Any]) -> Tube:
     try:
         return Tube(**values)
     except RobotError as error:
+        if error.field == "section" and "sections" in data:
+            raise RobotError("sections", error.problem, error.expected, value=error.value) from None
         raise _in_file(error) from None
 
 
@@ -92,18 +94,18 @@ def _notches(data: dict[str, Any], diameters: dict[str, float]) -> Section:
 
 
 def _stiffness(data: dict[str, Any], diameters: dict[str, float]) -> Section:
-    values = {key: _along(f"stiffness.{key}", value) for key, value in data.items() if key != "neutral_axis"}
-    if "neutral_axis" in data:
-        values["neutral_axis"] = _alongs("stiffness.neutral_axis", data["neutral_axis"])
+    values = {key: _along(f"stiffness.{key}", data[key]) for key in data.keys() - {"neutral_axis"}}
+    axis = _alongs("stiffness.neutral_axis", data.get("neutral_axis", (0.0, 0.0)))
     try:
-        varying = any(isinstance(q, Along) for q in (*values.values(), *values.get("neutral_axis", ())))
-        return (VaryingStiffness if varying else Stiffness)(**values, **diameters)
+        varying = any(isinstance(q, Along) for q in (*values.values(), *axis))
+        kind = VaryingStiffness if varying else Stiffness
+        return kind(**values, **diameters, neutral_axis=axis)
     except RobotError as error:
-        inside = error.field.partition("[")[0] in values
+        inside = error.field.partition("[")[0] in (*values, "neutral_axis")
         raise (error.under("stiffness") if inside else error) from None
 
 
-def _alongs(field: str, data: tuple[Any, ...]) -> tuple[Any, ...]:
+def _alongs(field: str, data: tuple[Any, ...]) -> Any:
     return tuple(_along(f"{field}[{k}]", value) for k, value in enumerate(data))
 
 

@@ -129,5 +129,5 @@ def _stiffness_coefficient(base: str, power: int) -> Kind:
     length -= power
     metres = {0: "", 1: "m", -1: "m"}.get(length, f"m^{abs(length)}")
     unit = f"{front} {metres}".strip() if length >= 0 else f"{front}/{metres}"
-    dimensions = tuple((first - power, *rest) for first, *rest in KINDS[base].dimensions)
+    dimensions = tuple((m - power, kg, s, rad) for m, kg, s, rad in KINDS[base].dimensions)
     return Kind(f"coefficient of sigma^{power}", dimensions, f"2 {unit}", (unit,))

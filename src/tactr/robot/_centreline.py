@@ -55,7 +55,7 @@ def of_functions(position: Any, length: float, frame: Any, breaks: Sequence[floa
     knots = (0.0, *places, length)
     p = _Smooth("position", lambda s: check.vector("position", position(s), "m"), knots, length)
     if frame is None:
-        return _framed_by_itself(p, knots)
+        return framed_by_itself(p, knots)
     R = _Smooth("frame", lambda s: rotation("frame", frame(s)).ravel(), knots, 1.0)
 
     def strains(s: float) -> np.ndarray:
@@ -133,7 +133,7 @@ class _Series:
 
     def __call__(self, s: float) -> np.ndarray:
         x = (2.0 * s - self.first - self.last) / (self.last - self.first)
-        return np.polynomial.chebyshev.chebval(x, self.coefficients)
+        return np.asarray(np.polynomial.chebyshev.chebval(x, self.coefficients))
 
 
 def _series(function: Callable[[float], Any], first: float, last: float) -> tuple[_Series, float]:
@@ -201,7 +201,7 @@ class LeastTurning:
         return np.array([-(d2 @ turn), d1 @ turn, 0.0]), np.column_stack((d1, d2, d3)), speed
 
 
-def _framed_by_itself(p: Derivative, knots: Sequence[float]) -> Found:
+def framed_by_itself(p: Derivative, knots: Sequence[float]) -> Found:
     if min(float(np.linalg.norm(p(s, 1))) for s in np.linspace(knots[0], knots[-1], 65)) < 1e-3:
         raise RobotError("position", "it stands still somewhere", "a curve with |p*'| near 1")
     frames = LeastTurning(p, knots)

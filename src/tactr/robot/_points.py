@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
-from tactr.robot._centreline import E3, Found, LeastTurning, _framed_by_itself, rotation
+from tactr.robot._centreline import E3, Found, LeastTurning, framed_by_itself, rotation
 
 
 def of_points(points: Any, sigma: Any, frames: Any, smoothing: Any) -> Found:
@@ -75,7 +76,7 @@ class _ArcLength:
         self.rate = rate
         self.knots = knots
         self.nodes, self.weights = np.polynomial.legendre.leggauss(24)
-        lengths = [self._between(*span) for span in zip(knots[:-1], knots[1:], strict=True)]
+        lengths = [self._between(*span) for span in pairwise(knots)]
         self.at_knots = np.concatenate(([0.0], np.cumsum(lengths)))
 
     def _between(self, first: float, last: float) -> float:
@@ -105,7 +106,7 @@ def _at_places(rows: np.ndarray, places: np.ndarray, frames: Any) -> Found:
     spline = make_interp_spline(places, rows, k=_degree(len(rows)))
     orders = [spline, spline.derivative(1), spline.derivative(2)]
     if frames is None:
-        return _framed_by_itself(lambda s, order: orders[order](s), tuple(float(s) for s in places))
+        return framed_by_itself(lambda s, order: orders[order](s), tuple(float(s) for s in places))
     entries = check.row("frames", frames, "a rotation matrix (3 x 3) for every point")
     if len(entries) != len(rows):
         raise RobotError("frames", f"{len(entries)} frames for {len(rows)} points", "one for every point")

@@ -41,11 +41,11 @@ def plain_material(value: object, length: float) -> Material | Pieces[Material] 
 
 def _one_or_pieces(field: str, value: object, kind: type, what: str, expected: str, length: float) -> Any:
     if isinstance(value, (list, tuple)):
-        if not value:
+        pieces = [_piece(f"{field}[{k}]", entry, kind, what, expected) for k, entry in enumerate(value)]
+        if not pieces:
             raise RobotError(field, "it is empty", f"{expected}, or pairs (start in m, {what})", value=value)
-        pieces = tuple(_piece(f"{field}[{k}]", entry, kind, what, expected) for k, entry in enumerate(value))
         check_starts(field, [start for start, _ in pieces], length)
-        return pieces if len(pieces) > 1 else pieces[0][1]
+        return tuple(pieces) if len(pieces) > 1 else pieces[0][1]
     return _of_kind(field, value, kind, what, expected)
 
 
