@@ -47,13 +47,13 @@ from tactr.robot import (
     Tube,
 )
 from tactr.robot.load import Load
-from tactr.robot.tube import Precurvature
+from tactr.robot.pieces import Pieces, Vector3
 
 LARGEST_BEND = math.radians(270.0)
 LARGEST_TENSION = 100.0  # N, about what a steel wire of 0.3 mm holds
 LARGEST_COMPRESSION = 0.01
 BEYOND_LIMIT = 1.5
-STRAIGHT: Precurvature = ((0.0, (0.0, 0.0, 0.0)),)
+STRAIGHT: Pieces[Vector3] = ((0.0, (0.0, 0.0, 0.0)),)
 CLOSEST = 1.0 / 1.6  # a tendon's offset in radii of curvature
 GRID = 400  # places at which the bend is estimated
 
@@ -124,7 +124,7 @@ def _material(rng: np.random.Generator) -> tuple[Material, bool]:
     return Material(E=E, nu=rng.uniform(0.28, 0.42), density=density), kind != "plastic"
 
 
-def _precurvature(rng: np.random.Generator, place: _Place, material: Material) -> Precurvature:
+def _precurvature(rng: np.random.Generator, place: _Place, material: Material) -> Pieces[Vector3]:
     reach = place.tip * (rng.uniform(0.2, 0.9) if rng.random() < 0.4 else 1.0)
     behind = place.tip - reach - place.start
     size = rng.uniform(0.0, BEYOND_LIMIT) * snapping_limit(reach, behind)

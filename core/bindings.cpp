@@ -47,9 +47,23 @@ void check_columns(const Table& table, size_t columns, const char* name) {
         throw std::invalid_argument(std::string(name) + " needs " + std::to_string(columns) + " columns");
 }
 
+/// row: start, number of coefficients, then the quantities' coefficients of each power in turn.
+tactr::TubePiece tube_piece(const double* row) {
+    tactr::TubePiece piece{row[0], static_cast<int>(row[1]), 1, {}};
+    if (piece.count < 1 || piece.count > tactr::MAX_TUBE_COEFFICIENTS)
+        throw std::invalid_argument("tube pieces have 1 to 8 coefficients");
+    row += 2;
+    for (auto& power : piece.c)
+        for (int q = 0; q < tactr::QUANTITIES; ++q) {
+            power[q] = *row++;
+            if (q >= tactr::VSTAR && power[q] != 0.0) piece.plain = 0;
+        }
+    return piece;
+}
+
 void read_tubes(PreparedRobot& robot, const Table& tubes, const Table& pieces) {
     check_columns(tubes, 3, "tubes");  // length, linear density, number of pieces
-    check_columns(pieces, 9, "pieces");
+    check_columns(pieces, 2 + tactr::MAX_TUBE_COEFFICIENTS * tactr::QUANTITIES, "pieces");
     if (tubes.shape(0) < 1 || tubes.shape(0) > tactr::MAX_TUBES) throw std::invalid_argument("1 to 8 tubes");
     int first = 0;
     for (size_t i = 0; i < tubes.shape(0); ++i) {
@@ -58,9 +72,7 @@ void read_tubes(PreparedRobot& robot, const Table& tubes, const Table& pieces) {
         first += count;
     }
     if (static_cast<size_t>(first) != pieces.shape(0)) throw std::invalid_argument("pieces do not match tubes");
-    for (size_t k = 0; k < pieces.shape(0); ++k)
-        robot.pieces.push_back({pieces(k, 0), pieces(k, 1), pieces(k, 2), pieces(k, 3), pieces(k, 4), pieces(k, 5),
-                                {pieces(k, 6), pieces(k, 7), pieces(k, 8)}});
+    for (size_t k = 0; k < pieces.shape(0); ++k) robot.pieces.push_back(tube_piece(&pieces(k, 0)));
 }
 
 void read_routing(PreparedRobot& robot, const Table& routing) {

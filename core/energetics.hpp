@@ -42,7 +42,7 @@ inline bool energetics(const Robot& robot, const Solution& solution, Energetics&
     Mesh mesh = solution.mesh;
     EnergyReader reader(robot, layout, actuation);
     if (!march.run(solution.free_end, mesh, reader)) return false;
-    out.strain_energy = reader.strain_energy;
+    out.strain_energy = reader.stored;
     out.load_potential = -reader.load_work;
     for (int c = 0; c < 3; ++c) out.load_potential += reader.load_sum[c] * march.base.position[c];
     out.torque.clear();

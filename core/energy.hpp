@@ -6,8 +6,9 @@
 // Translation: tube i slides along the common curve, all shapes over s kept. What it carries along (its ends, jumps of
 // rest curvature, stiffness or routing, ends of tendons, loads) moves along s, and a moving jump at s_k costs the jump
 // of the Hamiltonian H = sum of (N.v + M.u) - strain energy - sum of tension |q| (Weierstrass and Erdmann), beyond minus
-// before; smooth variation of its routing and its distributed loads add
-//     -integral of tension t.(u x r' + r'') + tension' |q|    and    -integral of f.v + tau.u.
+// before; smooth variation of its stiffness and rest shape, its routing and its distributed loads add
+//     -integral of d(strain energy)/d(sigma),    -integral of tension t.(u x r' + r'') + tension' |q|    and
+//     -integral of f.v + tau.u.
 // Behind the guide's exit nothing moves across and the exit itself holds p, so there H = M_3 tau - energies.
 #pragma once
 #include <vector>
@@ -27,19 +28,21 @@ struct Energetics {
 class EnergyReader : public EndsReader {
   public:
     using Stages = void;
-    std::vector<double> strain_energy, carried;  // per tube; carried: the integrals of the translation's derivative
+    std::vector<double> stored, carried;  // per tube; stored: strain energy; carried: the integrals of the translation's derivative
     double load_work = 0.0;                      // sum of force * position, in the march's axes
     double load_sum[3] = {0.0, 0.0, 0.0};        // of the forces outside the guide
 
     EnergyReader(const Robot& robot, const Layout<double>& layout, const Actuation<double>& actuation)
-        : EndsReader(robot, layout), strain_energy(robot.tube_count, 0.0), carried(robot.tube_count, 0.0), actuation_(actuation) {}
+        : EndsReader(robot, layout), stored(robot.tube_count, 0.0), carried(robot.tube_count, 0.0), actuation_(actuation) {}
 
     template <class M>
     void stage(M& march, const Section<double>& section, int k, double s, double weight) {
         EndsReader::stage(march, section, k, s, weight);
         if (s == section.distal) take_point_loads(march, section, s);
-        for (int a = 0; a < section.active_count; ++a)
-            strain_energy[section.active[a]] += weight * energy_density(march, robot_, section, a);
+        for (int a = 0; a < section.active_count; ++a) {
+            stored[section.active[a]] += weight * energy_density(march, a);
+            carried[section.active[a]] -= weight * stiffness_slope(march, section, a, s);
+        }
         for (int h = section.hosted.begin; h < section.hosted.end; ++h)
             carried[robot_.tendons[layout_.hosted[h].tendon].tube] -=
                 weight * route_slope(march, section, layout_.hosted[h], h - section.hosted.begin, s);
@@ -49,6 +52,17 @@ class EnergyReader : public EndsReader {
 
   private:
     const Actuation<double>& actuation_;
+
+    /// d(strain energy per length)/d(sigma) at fixed strains, of a tube that varies along itself.
+    template <class M>
+    double stiffness_slope(const M& march, const Section<double>& section, int a, double s) const {
+        const TubePiece& piece = robot_.pieces[section.piece[a]];
+        if (piece.count == 1) return 0.0;
+        Dual<1> sigma(s - actuation_.translation[section.active[a]]);
+        sigma.d[0] = 1.0;
+        const TubeState<Dual<1>> tube = tube_at(piece, sigma, actuation_.shape_scale);
+        return strain_energy(tube, march.solver.cosine[a], march.solver.sine[a], march.solver.strains, a).d[0];
+    }
 
     /// d(tension |q|)/d(sigma) at fixed strains: t.(u x r' + r'') times tension, and tension' |q|.
     template <class M>

@@ -170,16 +170,29 @@ class Shooting {
         world = world || !body_axes;
     }
 
+    /// The least of a quantity over a tube, as seen at both ends of its pieces.
+    static double least(const Robot& robot, const Tube& tube, TubeQuantity quantity) {
+        double found = std::numeric_limits<double>::max();
+        for (int k = tube.piece_begin; k < tube.piece_end; ++k) {
+            const TubePiece& piece = robot.pieces[k];
+            const double d = (k + 1 < tube.piece_end ? robot.pieces[k + 1].start : tube.length) - piece.start;
+            double end = 0.0;
+            for (int c = piece.count - 1; c >= 0; --c) end = end * d + piece.c[c][quantity];
+            found = smaller(found, smaller(end, piece.c[0][quantity]));
+        }
+        return found;
+    }
+
     /// Moment that bends the softest tube by one radian over the robot's length, and the force that goes with it.
     void set_scales(const Robot& robot, double length) {
         double EI = std::numeric_limits<double>::max();
         for (int c = 0; c < STATES; ++c) error_weight[c] = 0.0;
         for (int i = 0; i < tubes_; ++i) {
-            const TubePiece& piece = robot.pieces[robot.tubes[i].piece_begin];
-            EI = smaller(EI, smaller(piece.EIx, piece.EIy));
+            const Tube& tube = robot.tubes[i];
+            EI = smaller(EI, smaller(least(robot, tube, EIX), least(robot, tube, EIY)));
             error_weight[PSI + i] = length;
-            error_weight[N3 + i] = length / piece.EA;
-            error_weight[M3 + i] = length * length / piece.GJ;
+            error_weight[N3 + i] = length / least(robot, tube, EA);
+            error_weight[M3 + i] = length * length / least(robot, tube, GJ);
         }
         moment_scale = EI / length;
         force_scale = moment_scale / length;

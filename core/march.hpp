@@ -117,6 +117,7 @@ class March {
         for (int c = 0; c < STATES; ++c) y[c] = T(0.0);
         for (int c = 0; c < 4; ++c) y[QUAT + c] = free_end.quaternion[c];
         last_ = Strains{};
+        solver.begin();
         section_error.assign(sections, 0.0);
         if (options.path) tendon_length.assign(robot.tendon_count, 0.0);
     }

@@ -6,11 +6,18 @@ namespace tactr {
 constexpr int MAX_TUBES = 8;
 constexpr int MAX_COEFFICIENTS = 16;
 
-/// Constants of one stretch of a tube: the stiffness diagonals and the rest curvature and twist u*.
+constexpr int MAX_TUBE_COEFFICIENTS = 8;
+
+/// What describes a tube at one cross-section, in its own material frame: bending stiffness about x and y, torsional,
+/// axial and shear stiffness, rest curvature and twist u*, rest shear and stretch v* - e3, neutral axis (x, y).
+enum TubeQuantity { EIX, EIY, GJ, EA, GA, USTAR, VSTAR = USTAR + 3, AXIS = VSTAR + 3, QUANTITIES = AXIS + 2 };
+
+/// One stretch of a tube: its quantities as polynomials in sigma - start, ascending powers.
 struct TubePiece {
     double start;  // arc length sigma of the tube where the piece begins
-    double EIx, EIy, GJ, EA, GA;
-    double ustar[3];
+    int count;     // of coefficients; 1: constant
+    int plain;     // 1: v* = e3, and the neutral axis on the centreline
+    double c[MAX_TUBE_COEFFICIENTS][QUANTITIES];
 };
 
 /// Tube i, outermost first; its pieces are pieces[piece_begin..piece_end).

@@ -122,24 +122,27 @@ class Sampler {
         for (int c = 0; c < 3; ++c) out.position[c] = state[POS + c];
         for (int a = 0; a < section.active_count; ++a) {
             const int i = section.active[a];
-            const TubePiece& piece = robot_.pieces[section.piece[a]];
+            const TubeState<double>& tube = march.solver.tubes[a];
             const double c = march.solver.cosine[a], s = march.solver.sine[a], stretch = 1.0 + strains_.eta[a];
             out.present[i] = 1;
             out.psi[i] = state[PSI + i];
             const double u[3] = {c * strains_.kx + s * strains_.ky, c * strains_.ky - s * strains_.kx, strains_.tau[a]};
             const double v[2] = {stretch * (c * strains_.wx + s * strains_.wy), stretch * (c * strains_.wy - s * strains_.wx)};
-            const double stiffness[3] = {piece.EIx, piece.EIy, piece.GJ};
-            for (int r = 0; r < 3; ++r) {
-                out.u[i][r] = u[r];
-                out.m[i][r] = stiffness[r] * (u[r] - piece.ustar[r]);
-            }
-            for (int r = 0; r < 2; ++r) {
-                out.v[i][r] = v[r];
-                out.n[i][r] = piece.GA * v[r];
-            }
+            std::copy(u, u + 3, out.u[i]);
+            std::copy(v, v + 2, out.v[i]);
             out.v[i][2] = stretch;
-            out.n[i][2] = piece.EA * strains_.eta[a];
+            double n[3], m[3];
+            elastic_wrench(tube, c, s, strains_, a, n, m);
+            turn_back(c, s, n, out.n[i]);
+            turn_back(c, s, m, out.m[i]);
         }
+    }
+
+    /// From R_b to a tube's own frame.
+    static void turn_back(double c, double s, const double a[3], double out[3]) {
+        out[0] = c * a[0] + s * a[1];
+        out[1] = c * a[1] - s * a[0];
+        out[2] = a[2];
     }
 
     template <class M>

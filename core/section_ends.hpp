@@ -22,16 +22,22 @@ struct SectionEnd {
     double energy[MAX_TUBES];       // strain energy per length
 };
 
-/// Strain energy per length of the tube in a slot of the section solved last, J/m.
+/// Strain energy per length of one tube at the given strains, J/m.
+template <class C>
+C strain_energy(const TubeState<C>& tube, double c, double s, const Strains& e, int slot) {
+    const double stretch = 1.0 + e.eta[slot];
+    const C bx = c * e.kx + s * e.ky - tube.ustar[0], by = c * e.ky - s * e.kx - tube.ustar[1];
+    const C twist = e.tau[slot] - tube.ustar[2];
+    const C vx = stretch * (c * e.wx + s * e.wy) - tube.vstar[0], vy = stretch * (c * e.wy - s * e.wx) - tube.vstar[1];
+    const C vz = e.eta[slot] - tube.vstar[2] + bx * tube.axis[1] - by * tube.axis[0];  // at the neutral axis
+    return 0.5 * (tube.EIx * bx * bx + tube.EIy * by * by + tube.GJ * twist * twist + tube.EA * vz * vz +
+                  tube.GA * (vx * vx + vy * vy));
+}
+
+/// The same for the tube in a slot of the section solved last.
 template <class M>
-double energy_density(const M& march, const Robot& robot, const Section<double>& section, int a) {
-    const TubePiece& tube = robot.pieces[section.piece[a]];
-    const Strains& e = march.solver.strains;
-    const double c = march.solver.cosine[a], s = march.solver.sine[a], stretch = 1.0 + e.eta[a];
-    const double bx = c * e.kx + s * e.ky - tube.ustar[0], by = c * e.ky - s * e.kx - tube.ustar[1];
-    const double twist = e.tau[a] - tube.ustar[2];
-    return 0.5 * (tube.EIx * bx * bx + tube.EIy * by * by + tube.GJ * twist * twist + tube.EA * e.eta[a] * e.eta[a] +
-                  tube.GA * stretch * stretch * (e.wx * e.wx + e.wy * e.wy));
+double energy_density(const M& march, int a) {
+    return strain_energy(march.solver.tubes[a], march.solver.cosine[a], march.solver.sine[a], march.solver.strains, a);
 }
 
 /// From the section solved last; state: its packed states.
@@ -43,7 +49,7 @@ void read_end(const M& march, const Robot& robot, const Section<double>& section
         const double *n = march.solver.N_xy[a], *m = march.solver.M_xy[a], stretch = 1.0 + e.eta[a];
         out.psi[a] = state[3 * a];
         out.resultant[a] = {{n[0], n[1], state[3 * a + 1]}, {m[0], m[1], state[3 * a + 2]}};
-        out.energy[a] = energy_density(march, robot, section, a);
+        out.energy[a] = energy_density(march, a);
         out.power[a] = state[3 * a + 2] * e.tau[a];
         if (!section.guided)
             out.power[a] += m[0] * e.kx + m[1] * e.ky + stretch * (n[0] * e.wx + n[1] * e.wy + state[3 * a + 1]);

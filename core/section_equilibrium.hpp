@@ -8,6 +8,7 @@
 
 #include "dual.hpp"
 #include "robot.hpp"
+#include "tube_state.hpp"
 
 namespace tactr {
 
@@ -40,20 +41,28 @@ struct TendonState {
     int slot;
 };
 
-/// Resultants N_i, M_i (elastic part plus tendons) of one tube, in R_b, at the given strains.
-/// c, s: cosine and sine of psi_i. ustar: rest curvature and twist in the tube's frame.
-template <class T, class P>
-inline void elastic_wrench(const TubePiece& tube, const P* ustar, const T& c, const T& s, const Strains& e, int slot,
-                           T N[3], T M[3]) {
+/// Elastic resultants of one tube, in R_b, at the given strains; c, s: cosine and sine of psi_i. An axial force acts
+/// at the neutral axis r = (x, y, 0): N_3 = EA ((v - v*) + (u - u*) x r)_3, and r x N_3 e3 adds to the moment.
+template <class T, class C>
+inline void elastic_wrench(const TubeState<C>& tube, const T& c, const T& s, const Strains& e, int slot, T N[3], T M[3]) {
     const double stretch = 1.0 + e.eta[slot];
+    const T ux = c * e.kx + s * e.ky - tube.ustar[0];
+    const T uy = c * e.ky - s * e.kx - tube.ustar[1];
+    T bx = ux * tube.EIx, by = uy * tube.EIy;
     N[0] = T(tube.GA * stretch * e.wx);
     N[1] = T(tube.GA * stretch * e.wy);
-    N[2] = T(tube.EA * e.eta[slot]);
-    const T bx = (c * e.kx + s * e.ky - ustar[0]) * tube.EIx;
-    const T by = (c * e.ky - s * e.kx - ustar[1]) * tube.EIy;
+    if (tube.plain) {
+        N[2] = T(tube.EA * e.eta[slot]);
+    } else {
+        N[0] -= (c * tube.vstar[0] - s * tube.vstar[1]) * tube.GA;
+        N[1] -= (s * tube.vstar[0] + c * tube.vstar[1]) * tube.GA;
+        N[2] = (e.eta[slot] - tube.vstar[2] + ux * tube.axis[1] - uy * tube.axis[0]) * tube.EA;
+        bx += N[2] * tube.axis[1];
+        by -= N[2] * tube.axis[0];
+    }
     M[0] = c * bx - s * by;
     M[1] = s * bx + c * by;
-    M[2] = T(tube.GJ * (e.tau[slot] - ustar[2]));
+    M[2] = T(tube.GJ * (e.tau[slot] - tube.ustar[2]));
 }
 
 /// Tendon data kept from the last evaluation, for the tangent stiffness and the tendon's length.
@@ -96,7 +105,7 @@ struct TubeTangent {
     double vu[3][3];  // dN/du
 };
 
-inline void elastic_tangent(const TubePiece& tube, double c, double s, TubeTangent& K) {
+inline void elastic_tangent(const TubeState<double>& tube, double c, double s, TubeTangent& K) {
     K = TubeTangent{};
     K.vv[0] = K.vv[3] = tube.GA;
     K.vv[5] = tube.EA;
@@ -104,6 +113,24 @@ inline void elastic_tangent(const TubePiece& tube, double c, double s, TubeTange
     K.uu[1] = (tube.EIx - tube.EIy) * c * s;
     K.uu[3] = tube.EIx * s * s + tube.EIy * c * c;
     K.uu[5] = tube.GJ;
+    if (tube.plain) return;
+    const double x = c * tube.axis[0] - s * tube.axis[1], y = s * tube.axis[0] + c * tube.axis[1];
+    K.vu[2][0] = y * tube.EA;
+    K.vu[2][1] = -x * tube.EA;
+    K.uu[0] += y * y * tube.EA;
+    K.uu[1] -= x * y * tube.EA;
+    K.uu[3] += x * x * tube.EA;
+}
+
+/// Twice the elastic energy of one tube per length, from its elastic resultants in R_b.
+inline double elastic_energy(const TubeState<double>& tube, double c, double s, const double N[3], const double M[3]) {
+    double bx = c * M[0] + s * M[1], by = c * M[1] - s * M[0];
+    if (!tube.plain) {
+        bx -= N[2] * tube.axis[1];
+        by += N[2] * tube.axis[0];
+    }
+    return bx * bx / tube.EIx + by * by / tube.EIy + M[2] * M[2] / tube.GJ + N[2] * N[2] / tube.EA +
+           (N[0] * N[0] + N[1] * N[1]) / tube.GA;
 }
 
 /// Adds G = lambda/|q| (I - t t^T), seen through r, to the tangent of the tendon's host.

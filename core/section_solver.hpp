@@ -26,13 +26,14 @@ class SectionSolver {
     double moment_scale = 1.0, force_scale = 1.0;  // of the residual
     Precision precision = Precision::full;
     double worst_residual = 0.0;
-    double least_stretch = 1.0;
+    double least_stretch = 1.0;    // beyond the rest stretch
     double shortest_tendon = 1.0;  // least |q| of a pulled tendon so far: 0 at a kink
 
     // The section at the last solve, by position among the tubes present.
     StrainsOf<T> strains;
     T cosine[MAX_TUBES], sine[MAX_TUBES];
     T N_xy[MAX_TUBES][2], M_xy[MAX_TUBES][2];
+    TubeState<double> tubes[MAX_TUBES];
     std::vector<TendonState<P>> tendons;
     std::vector<TendonTangent> tendon_tangents;
 
@@ -42,14 +43,18 @@ class SectionSolver {
         tendon_tangents.resize(layout.max_hosted + 1);
     }
 
+    /// Forgets the section before, as a march begins: robot and actuation may have changed.
+    void begin() { section_ = nullptr; }
+
     /// From the packed states z at s to the strains, starting at e; false: none found.
     bool solve(const Section<P>& section, const P& s, const T* z, const Packing& packing, Strains& e) {
+        place_tubes(section, s);
         place_tendons(section, s);
         for (int a = 0; a < section.active_count; ++a) sine_cosine(z[3 * a], sine[a], cosine[a]);
         if (!find_strains(section, z, packing, e)) return false;
         watch_tendons(section);
         for (int a = 0; a < section.active_count; ++a)
-            if (1.0 + e.eta[a] < least_stretch) least_stretch = 1.0 + e.eta[a];
+            least_stretch = smaller(least_stretch, 1.0 + e.eta[a] - tubes[a].vstar[2]);
         carry(section, z, packing, e);
         return true;
     }
@@ -85,10 +90,34 @@ class SectionSolver {
     const Layout<P>& layout_;
     const Actuation<P>& actuation_;
     double pull_ = 0.0, pull_moment_ = 0.0;  // tensions, and with their offsets, of all tendons here
+    const Section<P>* section_ = nullptr;  // whose constant tubes are in place
+    int varying_[MAX_TUBES], varying_count_ = 0;  // slots of the tubes that vary along the section
+    TubeState<P> exact_[MAX_TUBES];  // those tubes with the derivatives of their sigma
     double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
     TubeTangent tangent_[MAX_TUBES];
     TubeRows rows_[MAX_TUBES];
     SectionFactor factor_;
+
+    void place_tubes(const Section<P>& section, const P& s) {
+        if (section_ != &section) enter(section);
+        for (int k = 0; k < varying_count_; ++k) {
+            const int a = varying_[k];
+            const TubePiece& piece = robot_.pieces[section.piece[a]];
+            const P sigma = s - actuation_.translation[section.active[a]];
+            tubes[a] = tube_at(piece, value(sigma), actuation_.shape_scale);
+            if constexpr (!std::is_same_v<P, double>) exact_[a] = tube_at(piece, sigma, actuation_.shape_scale);
+        }
+    }
+
+    void enter(const Section<P>& section) {
+        section_ = &section;
+        varying_count_ = 0;
+        for (int a = 0; a < section.active_count; ++a) {
+            const TubePiece& piece = robot_.pieces[section.piece[a]];
+            if (piece.count > 1) varying_[varying_count_++] = a;
+            tubes[a] = tube_at(piece, piece.start, actuation_.shape_scale);
+        }
+    }
 
     /// Keeps the least |q|, at solutions and on the way to slow ones: a tendon bent to no length stops everything.
     void watch_tendons(const Section<P>& section) {
@@ -100,17 +129,9 @@ class SectionSolver {
         return {{value(t.r[0]), value(t.r[1])}, {value(t.dr[0]), value(t.dr[1])}, value(t.tension), t.slot};
     }
 
-    /// u* of the tube in a slot of the section, in its own frame.
-    void rest_curvature(const Section<P>& section, int a, double ustar[3]) const {
-        for (int r = 0; r < 3; ++r) ustar[r] = actuation_.shape_scale * robot_.pieces[section.piece[a]].ustar[r];
-    }
-
     void evaluate_wrenches(const Section<P>& section, const Strains& e) {
-        for (int a = 0; a < section.active_count; ++a) {
-            double ustar[3];
-            rest_curvature(section, a, ustar);
-            elastic_wrench(robot_.pieces[section.piece[a]], ustar, value(cosine[a]), value(sine[a]), e, a, N_[a], M_[a]);
-        }
+        for (int a = 0; a < section.active_count; ++a)
+            elastic_wrench(tubes[a], value(cosine[a]), value(sine[a]), e, a, N_[a], M_[a]);
         const int count = section.hosted.end - section.hosted.begin;
         for (int h = 0; h < count; ++h) {
             const TendonState<double> tendon = plain(tendons[h]);
@@ -128,7 +149,7 @@ class SectionSolver {
         const int count = section.hosted.end - section.hosted.begin;
         for (int a = 0; a < section.active_count; ++a) {
             TubeTangent K;
-            elastic_tangent(robot_.pieces[section.piece[a]], value(cosine[a]), value(sine[a]), K);
+            elastic_tangent(tubes[a], value(cosine[a]), value(sine[a]), K);
             for (int h = 0; h < count; ++h)
                 if (tendons[h].slot == a) add_tendon_tangent(tendon_tangents[h], K);
             rows_[a].set(K, e.wx, e.wy, e.eta[a]);
@@ -229,15 +250,10 @@ class SectionSolver {
             sum -= value(sums[0]) * e.wx + value(sums[1]) * e.wy + value(sums[2]) * e.kx + value(sums[3]) * e.ky;
         }
         for (int a = 0; a < section.active_count; ++a) {
-            const TubePiece& tube = robot_.pieces[section.piece[a]];
-            double n[3], m[3], ustar[3];
-            rest_curvature(section, a, ustar);
-            elastic_wrench(tube, ustar, value(cosine[a]), value(sine[a]), e, a, n, m);
-            // half the product of stress and strain, in the tube's frame: u - u* from m
             const double c = value(cosine[a]), s = value(sine[a]);
-            const double bx = c * m[0] + s * m[1], by = c * m[1] - s * m[0];
-            sum += 0.5 * (bx * bx / tube.EIx + by * by / tube.EIy + m[2] * m[2] / tube.GJ + n[2] * n[2] / tube.EA +
-                          (n[0] * n[0] + n[1] * n[1]) / tube.GA);
+            double n[3], m[3];
+            elastic_wrench(tubes[a], c, s, e, a, n, m);
+            sum += 0.5 * elastic_energy(tubes[a], c, s, n, m);
             sum -= value(z[3 * a + 1]) * e.eta[a] + value(z[3 * a + 2]) * e.tau[a];
         }
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
@@ -391,9 +407,11 @@ class SectionSolver {
     void lanes_of_everything(const Section<P>& section, const Strains& e, WrenchLanes* fixed) const {
         T n[MAX_TUBES][3], m[MAX_TUBES][3];
         for (int a = 0; a < section.active_count; ++a) {
-            double ustar[3];
-            rest_curvature(section, a, ustar);
-            elastic_wrench(robot_.pieces[section.piece[a]], ustar, cosine[a], sine[a], e, a, n[a], m[a]);
+            if (std::is_same_v<P, double> || robot_.pieces[section.piece[a]].count == 1) {
+                elastic_wrench(tubes[a], cosine[a], sine[a], e, a, n[a], m[a]);
+            } else {
+                elastic_wrench(exact_[a], cosine[a], sine[a], e, a, n[a], m[a]);
+            }
         }
         const int count = section.hosted.end - section.hosted.begin;
         for (int h = 0; h < count; ++h) {

@@ -42,7 +42,7 @@ def interior(robot: Robot, length: float) -> np.ndarray:
     """Stations away from ends and jumps, where values differ on both sides."""
     s = (np.arange(23) + 0.37) * length / 23
     jumps = [tube.tip for tube in robot.tubes]
-    jumps += [tube.translation + start for tube in robot.tubes for start, _ in tube.precurvature]
+    jumps += [tube.translation + stretch.start for tube in robot.tubes for stretch in tube.stretches]
     jumps += [robot.tube(t.tube).translation + t.end for t in robot.tendons if t.end is not None]
     return s[np.abs(s[:, None] - jumps).min(axis=1) > 1e-6]
 
@@ -53,9 +53,9 @@ def carried(shape: Shape, robot: Robot) -> tuple[np.ndarray, np.ndarray]:
     for tube, described in zip(shape.tubes, robot.tubes, strict=True):
         here = np.isin(shape.s, tube.s)
         k = described.stiffness
-        starts = [start for start, _ in described.precurvature]
+        starts = [stretch.start for stretch in described.stretches]
         piece = np.clip(np.searchsorted(starts, tube.sigma, side="right") - 1, 0, None)
-        rest = np.array([u for _, u in described.precurvature])[piece]
+        rest = np.array([stretch.powers[0][5:8] for stretch in described.stretches])[piece]
         n, m = (tube.v - [0, 0, 1]) * [k.GA, k.GA, k.EA], (tube.u - rest) * [k.EI_x, k.EI_y, k.GJ]
         force[here] += np.einsum("kab,kb->ka", tube.frames, n)
         moment[here] += np.einsum("kab,kb->ka", tube.frames, m)

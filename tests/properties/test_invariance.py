@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import tactr
-from tactr import Annulus, Gravity, Helix, Piecewise, PointLoad, Robot, Straight, Tendon, Tube
+from tactr import Annulus, Gravity, Helix, Piecewise, PointLoad, RestShape, Robot, Straight, Tendon, Tube
 from tactr.materials import nitinol
 from tactr.robot import Routing
 from tactr.robot.load import Load
@@ -66,7 +66,7 @@ def test_mirrored_robot_has_the_mirrored_shape(random_robot: Generator, seed: in
         replace(
             tube,
             rotation=-tube.rotation,
-            precurvature=[(start, (-u[0], u[1], -u[2])) for start, u in tube.precurvature],
+            precurvature=[(start, (-u[0], u[1], -u[2])) for start, u in rest_of(tube)],
         )
         for tube in robot.tubes
     ]
@@ -105,8 +105,13 @@ def test_an_extra_breakpoint_in_tubes_and_routings_changes_nothing(
     check_same(robot, robot.replace(tubes=tubes, tendons=tendons))
 
 
+def rest_of(tube: Tube) -> list[tuple[float, tuple[float, float, float]]]:
+    assert not isinstance(tube.precurvature, RestShape)
+    return list(tube.precurvature)
+
+
 def split_rest(tube: Tube, where: float) -> list[tuple[float, tuple[float, float, float]]]:
-    pieces = list(tube.precurvature)
+    pieces = rest_of(tube)
     start, u = pieces[-1]
     return [*pieces, (start + where * (tube.length - start), u)]
 

@@ -78,9 +78,9 @@ def test_without_tensions_and_loads_tendons_do_not_matter(random_robot: Generato
     np.testing.assert_allclose(one.centreline, other.centreline, rtol=0.0, atol=4 * TOLERANCE)
     for tube, described in zip(one.tubes, robot.tubes, strict=True):
         k = described.stiffness
-        starts = [start for start, _ in described.precurvature]
+        starts = [stretch.start for stretch in described.stretches]
         piece = np.clip(np.searchsorted(starts, tube.sigma, side="right") - 1, 0, None)
-        rest = np.array([u for _, u in described.precurvature])[piece]
+        rest = np.array([stretch.powers[0][5:8] for stretch in described.stretches])[piece]
         inside = np.abs(tube.sigma[:, None] - starts).min(axis=1) > 1e-9
         moment = (tube.u - rest) * [k.EI_x, k.EI_y, k.GJ]
         np.testing.assert_allclose(tube.m[inside], moment[inside], rtol=0.0, atol=1e-9)

@@ -10,7 +10,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from tactr.robot import Function, RoutingPiece, Spline
-from tactr.robot._fit import _TO_CHEBYSHEV, _TO_MONOMIAL, fit
+from tactr.robot._fit import basis, fit
 
 Path = Callable[[float], tuple[float, float]]
 
@@ -120,12 +120,12 @@ def test_equality_goes_by_function_length_and_breaks() -> None:
 def test_matrices() -> None:
     nodes = 0.5 - 0.5 * np.cos(np.pi * np.arange(16) / 15)
     values = np.polynomial.chebyshev.chebval(2 * nodes - 1, np.arange(1.0, 17.0))
-    np.testing.assert_allclose(_TO_CHEBYSHEV @ values, np.arange(1.0, 17.0), rtol=1e-12)
+    np.testing.assert_allclose(basis(16).to_chebyshev @ values, np.arange(1.0, 17.0), rtol=1e-12)
     for k in range(16):
         unit: Any = np.polynomial.chebyshev.Chebyshev.basis(k, domain=[0, 1]).convert(
             kind=np.polynomial.Polynomial
         )
-        np.testing.assert_allclose(_TO_MONOMIAL[: k + 1, k], unit.coef, rtol=1e-12)
+        np.testing.assert_allclose(basis(16).to_monomial[: k + 1, k], unit.coef, rtol=1e-12)
 
 
 def test_fit_reports_what_it_saw() -> None:

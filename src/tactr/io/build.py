@@ -8,30 +8,25 @@ from functools import partial
 from typing import Any, TypeVar
 
 from tactr.errors import RobotError
+from tactr.io.build_tube import build_tube, under
 from tactr.io.document import DataPath, Document, Problem, ProblemsFound
-from tactr.io.fields import Report, suggestion
+from tactr.io.fields import Report
 from tactr.io.layout import ROBOT
 from tactr.robot import (
-    Annulus,
     DistributedLoad,
     Gravity,
     Helix,
     Load,
-    Material,
     Piecewise,
     PointLoad,
     PolarPolynomial,
     Polynomial,
     Robot,
-    Rod,
     Routing,
-    Section,
     Spline,
-    Stiffness,
     Straight,
     Tendon,
     TensionProfile,
-    Tube,
 )
 
 T = TypeVar("T")
@@ -54,7 +49,7 @@ def build(document: Document) -> Robot:
         made = [_attempt(partial(make, entry), f"{kind}[{k}]", report) for k, entry in places]
         return [part for part in made if part is not None]
 
-    tubes, tendons, loads = parts("tubes", _tube), parts("tendons", _tendon), parts("loads", _load)
+    tubes, tendons, loads = parts("tubes", build_tube), parts("tendons", _tendon), parts("loads", _load)
     assumed = _assumed(data.get("assumed", ()), document, report)
     if not problems:
         texts = {key: data[key] for key in ("name", "description") if key in data}
@@ -92,56 +87,11 @@ def _path(field: str) -> DataPath:
     return tuple(path)
 
 
-def _tube(data: dict[str, Any]) -> Tube:
-    values = {key: data[key] for key in ("name", "length", "translation", "rotation") if key in data}
-    values["section"] = _section(data)
-    if "material" in data:
-        values["material"] = _material(data["material"])
-    if "precurvature" in data:
-        pieces = data["precurvature"]
-        pieces = (
-            tuple((piece["from"], piece["u"]) for piece in pieces) if isinstance(pieces[0], dict) else pieces
-        )
-        values["precurvature"] = pieces
-    return Tube(**values)
-
-
-def _section(data: dict[str, Any]) -> Section:
-    diameters = {key: data[key] for key in ("outer_diameter", "inner_diameter") if key in data}
-    if "stiffness" in data:
-        return _stiffness(data["stiffness"], diameters)
-    if "diameter" in data:
-        return Rod(data["diameter"])
-    return Annulus(**diameters)
-
-
-def _stiffness(values: dict[str, float], diameters: dict[str, float]) -> Stiffness:
-    try:
-        return Stiffness(**values, **diameters)
-    except RobotError as error:
-        raise (error.under("stiffness") if error.field in values else error) from None
-
-
-def _material(data: str | dict[str, Any]) -> Material:
-    if isinstance(data, dict):
-        return _under("material", lambda: Material(**data))
-    from tactr.materials import PRESETS
-
-    if data not in PRESETS:
-        near = suggestion(data, tuple(PRESETS))
-        raise RobotError(
-            "material",
-            f'"{data}" is not known{near}',
-            f"one of {', '.join(PRESETS)}, or a mapping with E and G or nu",
-        )
-    return PRESETS[data]
-
-
 def _tendon(data: dict[str, Any]) -> Tendon:
     values = dict(data)
-    values["routing"] = _under("routing", lambda: _routing(data["routing"]))
+    values["routing"] = under("routing", lambda: _routing(data["routing"]))
     if isinstance(data.get("tension"), dict):
-        values["tension"] = _under("tension", lambda: TensionProfile(**data["tension"]))
+        values["tension"] = under("tension", lambda: TensionProfile(**data["tension"]))
     return Tendon(**values)
 
 
@@ -154,7 +104,7 @@ def _routing(data: dict[str, Any]) -> Routing:
     if data["kind"] == "piecewise":
         parts = values["parts"]
         built = [
-            _under(f"parts[{k}].routing", lambda part=part: _routing(part["routing"]))
+            under(f"parts[{k}].routing", lambda part=part: _routing(part["routing"]))
             for k, part in enumerate(parts)
         ]
         return Piecewise(tuple((part["from"], routing) for part, routing in zip(parts, built, strict=True)))
@@ -166,13 +116,6 @@ def _load(data: dict[str, Any]) -> Load:
     values = {key: value for key, value in data.items() if key != "kind"}
     classes = {"point": PointLoad, "distributed": DistributedLoad, "gravity": Gravity}
     return classes[data["kind"]](**values)
-
-
-def _under(prefix: str, make: Callable[[], T]) -> T:
-    try:
-        return make()
-    except RobotError as error:
-        raise error.under(prefix) from None
 
 
 def _assumed(data: Any, document: Document, report: Report) -> tuple[str, ...]:

@@ -5,16 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from tactr.io.fields import Coefficients, Items, Text, quantity, vector
-from tactr.io.records import Either, Field, Record, Texts, Variants
+from tactr.io.layout_tube import NOTCHES, REST, TUBE
+from tactr.io.records import Either, Field, Record, Texts, Variants, given
 
 LENGTH, ANGLE, FORCE = quantity("length"), quantity("angle"), quantity("force")
-MODULUS, CURVATURE = quantity("modulus"), vector("curvature")
-EXTENSION, BENDING = quantity("axial or shear stiffness"), quantity("bending or torsional stiffness")
 AXES = Text(("world", "body"))
-
-
-def _given(*groups: str) -> tuple[frozenset[str], ...]:
-    return tuple(frozenset(group.split()) for group in groups)
 
 
 def _routings() -> tuple[Record, ...]:
@@ -31,7 +26,7 @@ STRAIGHT = Record(
         "radius": Field(LENGTH, "distance from the tube's axis"),
         "angle": Field(ANGLE, "angle from the tube's own x axis towards y"),
     },
-    _given("x y", "radius angle"),
+    given("x y", "radius angle"),
     kind="straight",
 )
 HELIX = Record(
@@ -42,7 +37,7 @@ HELIX = Record(
         "pitch": Field(LENGTH, "arc length of one turn, instead of rate; negative is left-handed"),
         "phase": Field(ANGLE, "angle at the tube's proximal end; default 0"),
     },
-    _given("rate", "pitch"),
+    given("rate", "pitch"),
     kind="helix",
 )
 POLYNOMIAL = Record(
@@ -96,92 +91,6 @@ PIECEWISE = Record(
     kind="piecewise",
 )
 
-MATERIAL = Record(
-    "A material given by its constants.",
-    {
-        "E": Field(MODULUS, 'Young\'s modulus, such as "65 GPa"', required=True),
-        "G": Field(MODULUS, 'shear modulus, such as "24.4 GPa"'),
-        "nu": Field(quantity("number"), "Poisson's ratio, instead of G"),
-        "density": Field(quantity("density"), 'such as "6450 kg/m^3"; needed where gravity acts'),
-        "name": Field(Text(), "what people call it"),
-        "source": Field(Text(), "where the constants come from"),
-    },
-    _given("G", "nu"),
-)
-STIFFNESS = Record(
-    "The stiffness of a section given directly, for notched, printed or calibrated tubes.",
-    {
-        "EA": Field(EXTENSION, 'axial stiffness, such as "12 kN"', required=True),
-        "GA": Field(EXTENSION, 'shear stiffness, such as "5 kN"', required=True),
-        "EI_x": Field(
-            BENDING, 'stiffness of bending about the tube\'s own x axis, such as "5000 N mm^2"', required=True
-        ),
-        "EI_y": Field(
-            BENDING, 'stiffness of bending about the tube\'s own y axis, such as "5000 N mm^2"', required=True
-        ),
-        "GJ": Field(BENDING, 'torsional stiffness, such as "4000 N mm^2"', required=True),
-        "linear_density": Field(
-            quantity("linear density"), 'mass per length, such as "2 g/m"; needed where gravity acts'
-        ),
-    },
-)
-REST_SHAPE = Record(
-    "The rest shape from one arc length of the tube on.",
-    {
-        "from": Field(LENGTH, 'arc length where this rest curvature begins, such as "60 mm"', required=True),
-        "u": Field(CURVATURE, 'rest curvature and twist, such as ["10 1/m", 0, 0]', required=True),
-    },
-)
-
-
-class _RestShapes:
-    """A vector, or a list of pieces: told apart by what the list holds."""
-
-    def _block(self, value: Any) -> Items:
-        return (
-            Items(REST_SHAPE)
-            if isinstance(value, list) and value and isinstance(value[0], dict)
-            else CURVATURE
-        )
-
-    def read(self, value: Any, path: Any, report: Any) -> Any:
-        return self._block(value).read(value, path, report)
-
-    def schema(self) -> dict[str, Any]:
-        return {"anyOf": [CURVATURE.schema(), Items(REST_SHAPE).schema()]}
-
-
-TUBE = Record(
-    "One tube: its section is outer_diameter and inner_diameter, or diameter (a solid rod), or stiffness.",
-    {
-        "name": Field(Text(), "a text by which tendons, loads and commands refer to the tube", required=True),
-        "length": Field(LENGTH, 'length of the whole tube, such as "140 mm"', required=True),
-        "outer_diameter": Field(LENGTH, 'outer diameter, such as "1.35 mm"; also allowed beside stiffness'),
-        "inner_diameter": Field(LENGTH, 'bore, such as "1.07 mm"; also allowed beside stiffness'),
-        "diameter": Field(LENGTH, "diameter of a solid rod"),
-        "stiffness": Field(STIFFNESS, "stiffness of the section, instead of diameters and material"),
-        "material": Field(
-            Either(MATERIAL, Text()), "the name of a preset such as nitinol, or E and one of G and nu"
-        ),
-        "precurvature": Field(
-            _RestShapes(),
-            'rest curvature and twist in the tube\'s own frame, such as ["10 1/m", 0, 0], or pieces',
-        ),
-        "translation": Field(
-            LENGTH, "z of the proximal end: 0 at the guide's exit (the default), negative behind it"
-        ),
-        "rotation": Field(ANGLE, "angle about +z imposed at the proximal end; default 0"),
-    },
-    _given(
-        "outer_diameter inner_diameter",
-        "diameter",
-        "stiffness",
-        "stiffness outer_diameter",
-        "stiffness inner_diameter",
-        "stiffness outer_diameter inner_diameter",
-    ),
-    choice="outer_diameter and inner_diameter, or diameter (a solid rod), or stiffness",
-)
 PROFILE = Record(
     "A tension that varies along the tendon, straight between samples.",
     {
@@ -263,7 +172,7 @@ def json_schema() -> dict[str, Any]:
     """JSON Schema (2020-12) of a robot file, for editors and other programs."""
     variants = {
         variant.what: {"oneOf": [record.schema() for record in variant.records()]}
-        for variant in (ROUTING, LOAD)
+        for variant in (ROUTING, LOAD, NOTCHES, REST)
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

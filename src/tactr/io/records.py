@@ -45,6 +45,11 @@ class Field:
     required: bool = False
 
 
+def given(*groups: str) -> tuple[frozenset[str], ...]:
+    """Groups of keys for Record.one_of, each a text with blanks between the keys."""
+    return tuple(frozenset(group.split()) for group in groups)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Record:
     """A mapping with known keys, read as a dict that holds the keys given.

@@ -102,9 +102,11 @@ def kind_name(dimension: Dimension) -> str:
 
 
 def coefficient_kind(base: str, power: int) -> Kind:
-    """The kind of the coefficient of sigma**power in a polynomial whose value is a length or an angle."""
+    """The kind of the coefficient of sigma**power in a polynomial whose value is of the kind ``base``."""
     if power == 0:
         return KINDS[base]
+    if base not in ("length", "angle"):
+        return _stiffness_coefficient(base, power)
     length = -power + (1 if base == "length" else 0)
     dimension: Dimension = (length, 0, 0, 0 if base == "length" else 1)
     if dimension == (0, 0, 0, 0):
@@ -112,3 +114,20 @@ def coefficient_kind(base: str, power: int) -> Kind:
     top = "1" if base == "length" else "rad"
     unit = f"{top}/m" if length == -1 else f"{top}/m^{-length}"
     return Kind(f"coefficient of sigma^{power}", (dimension,), f"2 {unit}", (unit,))
+
+
+_FRONT = {
+    "bending or torsional stiffness": ("N", 2),
+    "axial or shear stiffness": ("N", 0),
+    "number": ("1", 0),
+}
+
+
+def _stiffness_coefficient(base: str, power: int) -> Kind:
+    """The same for what describes a tube, in newtons and metres."""
+    front, length = _FRONT.get(base, ("1", -1))
+    length -= power
+    metres = {0: "", 1: "m", -1: "m"}.get(length, f"m^{abs(length)}")
+    unit = f"{front} {metres}".strip() if length >= 0 else f"{front}/{metres}"
+    dimensions = tuple((m - power, kg, s, rad) for m, kg, s, rad in KINDS[base].dimensions)
+    return Kind(f"coefficient of sigma^{power}", dimensions, f"2 {unit}", (unit,))

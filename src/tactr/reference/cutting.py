@@ -30,6 +30,15 @@ def cut(robot: Robot) -> Sections:
                 "0 m",
                 value=tube.translation,
             )
+    for i, tube in enumerate(robot.tubes):
+        if any(not stretch.constant or any(stretch.powers[0][8:]) for stretch in tube.stretches):
+            raise RobotError(
+                f"tubes[{i}]",
+                f"{tube.name!r} varies smoothly, or has a rest shear, a rest stretch or a neutral axis off "
+                "its centreline: more than tactr.reference can do",
+                "stiffness and precurvature in constant pieces",
+                value=tube,
+            )
     places = breakpoints(robot)
     sections = tuple(section_between(robot, start, end) for start, end in pairwise(places))
     return Sections(
@@ -53,7 +62,7 @@ def places_of(robot: Robot) -> Iterator[float]:
     """Yield every arc length at which something starts, ends or jumps."""
     for tube in robot.tubes:
         yield tube.length
-        yield from (start for start, _ in tube.precurvature)
+        yield from (stretch.start for stretch in tube.stretches)
     for tendon in robot.tendons:
         yield tendon_end(robot, tendon)
         yield from (piece.start for piece in tendon.routing.pieces(tendon_end(robot, tendon)))
@@ -91,7 +100,8 @@ def section_between(robot: Robot, start: float, end: float) -> Section:
     middle = 0.5 * (start + end)
     present = tuple(i for i, tube in enumerate(robot.tubes) if tube.length > middle)
     names = [robot.tubes[i].name for i in present]
-    stiffness = [robot.tubes[i].stiffness for i in present]
+    stretches = np.array([stretch_at(robot.tubes[i], middle) for i in present])
+    EI_x, EI_y, GJ, EA, GA = stretches.T[:5]
     tendons = tuple(j for j, tendon in enumerate(robot.tendons) if tendon_end(robot, tendon) > middle)
     hosts = tuple(
         names.index(robot.tendons[j].tube) if robot.tendons[j].host == "own" else 0 for j in tendons
@@ -101,9 +111,9 @@ def section_between(robot: Robot, start: float, end: float) -> Section:
         start=start,
         end=end,
         tubes=present,
-        K_se=np.array([np.diag([k.GA, k.GA, k.EA]) for k in stiffness]),
-        K_bt=np.array([np.diag([k.EI_x, k.EI_y, k.GJ]) for k in stiffness]),
-        u_star=np.array([rest_curvature(robot.tubes[i], middle) for i in present], dtype=float),
+        K_se=np.array([np.diag(k) for k in zip(GA, GA, EA, strict=True)]),
+        K_bt=np.array([np.diag(k) for k in zip(EI_x, EI_y, GJ, strict=True)]),
+        u_star=stretches[:, 5:8],
         tendons=tendons,
         paths=tuple(path_at(robot, robot.tendons[j], middle) for j in tendons),
         hosts=hosts,
@@ -113,9 +123,9 @@ def section_between(robot: Robot, start: float, end: float) -> Section:
     )
 
 
-def rest_curvature(tube: Tube, s: float) -> tuple[float, float, float]:
-    """Return u* (1/m) of a tube at s."""
-    return [u for start, u in tube.precurvature if start <= s][-1]
+def stretch_at(tube: Tube, s: float) -> tuple[float, ...]:
+    """Return the constants of a tube at s, in the order of `Stretch.powers`."""
+    return [stretch for stretch in tube.stretches if stretch.start <= s][-1].powers[0]
 
 
 def path_at(robot: Robot, tendon: Tendon, s: float) -> Path:
@@ -146,7 +156,8 @@ def distributed(robot: Robot, present: tuple[int, ...], s: float) -> Iterator[Wo
     for load in robot.loads:
         if isinstance(load, Gravity):
             for k, i in enumerate(present):
-                weight = (robot.tubes[i].linear_density or 0.0) * np.array(load.acceleration)
+                part = [part for part in robot.tubes[i].parts if part.start <= s][-1]
+                weight = (part.stiffness.linear_density or 0.0) * np.array(load.acceleration)
                 yield WorldOrBody(k, weight, np.zeros(3), world=True)
         elif isinstance(load, DistributedLoad) and load.start <= s < load_end(robot, load):
             k = 0 if load.tube is None else names.index(load.tube)

@@ -1,18 +1,24 @@
 """Description of a robot: immutable plain data, checked when it is built; no solver in sight."""
 
+from tactr.robot.along import Along
 from tactr.robot.fitted import Function, Spline
 from tactr.robot.load import DistributedLoad, Gravity, Load, PointLoad
 from tactr.robot.material import Material
+from tactr.robot.notches import AsymmetricNotches, SymmetricNotches
 from tactr.robot.piece import RoutingPiece
 from tactr.robot.piecewise import Piecewise
+from tactr.robot.rest import RestShape
 from tactr.robot.robot import Robot
 from tactr.robot.routing import Helix, PolarPolynomial, Polynomial, Routing, Straight
 from tactr.robot.section import Annulus, Rod, Section, Stiffness
 from tactr.robot.tendon import Tendon, TensionProfile
 from tactr.robot.tube import Tube
+from tactr.robot.varying import VaryingStiffness
 
 __all__ = [
+    "Along",
     "Annulus",
+    "AsymmetricNotches",
     "DistributedLoad",
     "Function",
     "Gravity",
@@ -23,6 +29,7 @@ __all__ = [
     "PointLoad",
     "PolarPolynomial",
     "Polynomial",
+    "RestShape",
     "Robot",
     "Rod",
     "Routing",
@@ -31,7 +38,9 @@ __all__ = [
     "Spline",
     "Stiffness",
     "Straight",
+    "SymmetricNotches",
     "Tendon",
     "TensionProfile",
     "Tube",
+    "VaryingStiffness",
 ]

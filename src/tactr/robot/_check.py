@@ -205,3 +205,15 @@ def instances(field: str, value: object, kind: type[T] | tuple[type[T], ...], la
         if not isinstance(entry, kind):
             raise RobotError(f"{field}[{k}]", f"{show(entry)} is not one of the {label}", label, value=entry)
     return tuple(entries)
+
+
+def starts(field: str, values: Sequence[float]) -> None:
+    """Refuse starts (m) unless the first is 0 and each is above the one before."""
+    if values[0] != 0:
+        raise RobotError(
+            f"{field}[0]",
+            f"it starts at {show(values[0], 'm')}",
+            "a first start of 0 (arc length counts from the tube's proximal end)",
+            value=values[0],
+        )
+    increasing(field, values, "m")

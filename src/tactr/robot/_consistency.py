@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from tactr.errors import RobotError
 from tactr.robot import _check as check
 from tactr.robot.load import DistributedLoad, Gravity, Load, PointLoad
+from tactr.robot.parts import Part
 from tactr.robot.tendon import Tendon
 from tactr.robot.tube import Tube
 
@@ -60,10 +61,19 @@ def _check_fit(tubes: Sequence[Tube]) -> None:
 
 
 def _check_pair(i: int, outer: Tube, j: int, inner: Tube) -> None:
-    bore, width = outer.inner_diameter, inner.outer_diameter
+    for around in outer.parts:
+        for part in inner.parts:
+            start = max(around.start + outer.translation, part.start + inner.translation)
+            if start < min(around.end + outer.translation, part.end + inner.translation):
+                _check_sections(i, outer, around, j, inner, part)
+
+
+def _check_sections(i: int, outer: Tube, around: Part, j: int, inner: Tube, part: Part) -> None:
+    bore, width = around.section.inner_diameter, part.section.outer_diameter
     if bore is None or width is None or width <= bore * (1 + ROUNDING):
         return
-    field = f"tubes[{j}].outer_diameter"
+    place = part.field.removeprefix("section").removesuffix("[1]")
+    field = f"tubes[{j}].section{place}.outer_diameter" if place else f"tubes[{j}].outer_diameter"
     if bore == 0:
         raise RobotError(
             field,

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
 from tactr.robot.material import Material
+
+if TYPE_CHECKING:
+    from tactr.robot.varying import VaryingStiffness
+
+UNITS = {"EA": "N", "GA": "N", "EI_x": "N m^2", "EI_y": "N m^2", "GJ": "N m^2"}
 
 
 @runtime_checkable
@@ -21,7 +26,7 @@ class Section(Protocol):
     @property
     def inner_diameter(self) -> float | None: ...
 
-    def stiffness(self, material: Material | None = None) -> Stiffness:
+    def stiffness(self, material: Material | None = None) -> Stiffness | VaryingStiffness:
         """Stiffness of the section in ``material``; RobotError where a material is needed and missing."""
         ...
 
@@ -30,10 +35,12 @@ class Section(Protocol):
 class Stiffness:
     """Stiffness of a section given directly; it is also a section itself, and then needs no material.
 
-    EA (axial) and GA (shear, both directions) in N; EI_x, EI_y (bending about the tube's own x and y axes)
-    and GJ (torsion) in N m^2; all above 0. outer_diameter, inner_diameter in m, or None when unknown: the fit
-    of tubes in each other is then not checked. linear_density in kg/m, or None when unknown. Raises
-    RobotError.
+    EA (axial) and GA (shear, both directions) in N; EI_x, EI_y (bending about the tube's own x and y axes
+    through the neutral axis) and GJ (torsion) in N m^2; all above 0. neutral_axis: (x, y) in m, where an
+    axial force bends nothing, from the centreline in the tube's material frame: there n3 = EA (v3 - v3* + (u
+    - u*)_x y - (u - u*)_y x) acts, which adds (y n3, -x n3) to the moment about the centreline.
+    outer_diameter, inner_diameter in m, or None when unknown: the fit of tubes in each other is then not
+    checked. linear_density in kg/m, or None when unknown. Raises RobotError.
     """
 
     EA: float
@@ -41,31 +48,18 @@ class Stiffness:
     EI_x: float
     EI_y: float
     GJ: float
+    neutral_axis: tuple[float, float] = (0.0, 0.0)
     outer_diameter: float | None = None
     inner_diameter: float | None = None
     linear_density: float | None = None
 
     def __post_init__(self) -> None:
         with check.owned("Stiffness"):
-            for field, unit in (
-                ("EA", "N"),
-                ("GA", "N"),
-                ("EI_x", "N m^2"),
-                ("EI_y", "N m^2"),
-                ("GJ", "N m^2"),
-            ):
+            for field, unit in UNITS.items():
                 check.store(self, **{field: check.real(field, getattr(self, field), unit, above=0)})
-            if self.outer_diameter is not None:
-                check.store(
-                    self, outer_diameter=check.real("outer_diameter", self.outer_diameter, "m", above=0)
-                )
-            if self.inner_diameter is not None:
-                bore = check.real("inner_diameter", self.inner_diameter, "m", least=0)
-                check.store(self, inner_diameter=bore)
-                _check_wall(self.outer_diameter, bore)
-            if self.linear_density is not None:
-                density = check.real("linear_density", self.linear_density, "kg/m", above=0)
-                check.store(self, linear_density=density)
+            x, y = check.numbers("neutral_axis", self.neutral_axis, "m", fewest=2, most=2)
+            check.store(self, neutral_axis=(x, y))
+            check_rest(self)
 
     def stiffness(self, material: Material | None = None) -> Stiffness:
         """Itself; ``material`` is not used."""
@@ -118,6 +112,18 @@ class Rod:
     def stiffness(self, material: Material | None = None) -> Stiffness:
         """Stiffness in N and N m^2, and the mass per length where the material's density is known."""
         return _round(self.diameter, 0.0, material)
+
+
+def check_rest(section: Stiffness | VaryingStiffness) -> None:
+    """Check and store diameters and linear density."""
+    bore, width, density = section.inner_diameter, section.outer_diameter, section.linear_density
+    if width is not None:
+        check.store(section, outer_diameter=check.real("outer_diameter", width, "m", above=0))
+    if bore is not None:
+        check.store(section, inner_diameter=check.real("inner_diameter", bore, "m", least=0))
+        _check_wall(section.outer_diameter, bore)
+    if density is not None:
+        check.store(section, linear_density=check.real("linear_density", density, "kg/m", above=0))
 
 
 def _check_wall(outer: float | None, bore: float) -> None:

@@ -9,8 +9,11 @@ import numpy as np
 
 from tactr import _core
 from tactr.robot import DistributedLoad, Gravity, PointLoad, Robot, Tendon, TensionProfile, Tube
+from tactr.robot.parts import Part
+from tactr.robot.stretch import QUANTITIES
 
 COEFFICIENTS = 16
+TUBE_COEFFICIENTS = 8
 
 
 def assemble(robot: Robot) -> _core.PreparedRobot:
@@ -18,7 +21,9 @@ def assemble(robot: Robot) -> _core.PreparedRobot:
     index = {tube.name: i for i, tube in enumerate(robot.tubes)}
     return _core.PreparedRobot(
         tubes=_table([_tube_row(tube) for tube in robot.tubes], 3),
-        pieces=_table([row for tube in robot.tubes for row in _piece_rows(tube)], 9),
+        pieces=_table(
+            [row for tube in robot.tubes for row in _piece_rows(tube)], 2 + QUANTITIES * TUBE_COEFFICIENTS
+        ),
         tendons=_table([_tendon_row(robot, tendon, index) for tendon in robot.tendons], 5),
         routing=_table(
             [row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS
@@ -46,12 +51,17 @@ def _table(rows: Sequence[Sequence[float]], columns: int) -> np.ndarray:
 
 
 def _tube_row(tube: Tube) -> list[float]:
-    return [tube.length, tube.linear_density or 0.0, len(tube.precurvature)]
+    return [tube.length, tube.linear_density or 0.0, len(tube.stretches)]
 
 
 def _piece_rows(tube: Tube) -> list[list[float]]:
-    k = tube.stiffness
-    return [[start, k.EI_x, k.EI_y, k.GJ, k.EA, k.GA, *ustar] for start, ustar in tube.precurvature]
+    rows = []
+    for stretch in tube.stretches:
+        absent = [0.0] * (QUANTITIES * (TUBE_COEFFICIENTS - len(stretch.powers)))
+        rows.append(
+            [stretch.start, len(stretch.powers), *(c for row in stretch.powers for c in row), *absent]
+        )
+    return rows
 
 
 def _tendon_row(robot: Robot, tendon: Tendon, index: dict[str, int]) -> list[float]:
@@ -92,7 +102,9 @@ def _distributed_rows(robot: Robot, index: dict[str, int]) -> list[list[float]]:
         if isinstance(load, DistributedLoad):
             rows.append(_distributed_row(robot, load, index))
         elif isinstance(load, Gravity):
-            rows.extend(_weight_row(load, i, tube) for i, tube in enumerate(robot.tubes))
+            rows.extend(
+                _weight_row(load, i, part) for i, tube in enumerate(robot.tubes) for part in tube.parts
+            )
     return rows
 
 
@@ -103,6 +115,6 @@ def _distributed_row(robot: Robot, load: DistributedLoad, index: dict[str, int])
     return [tube, load.axes == "body", load.start, end, *load.force, *load.moment]
 
 
-def _weight_row(gravity: Gravity, i: int, tube: Tube) -> list[float]:
-    weight = [(tube.linear_density or 0.0) * g for g in gravity.acceleration]
-    return [i, False, 0.0, tube.length, *weight, 0.0, 0.0, 0.0]
+def _weight_row(gravity: Gravity, i: int, part: Part) -> list[float]:
+    weight = [(part.stiffness.linear_density or 0.0) * g for g in gravity.acceleration]
+    return [i, False, part.start, part.end, *weight, 0.0, 0.0, 0.0]

@@ -1,0 +1,31 @@
+// What a tube is at one cross-section: its stiffness, rest strains and neutral axis there.
+#pragma once
+#include "robot.hpp"
+
+namespace tactr {
+
+/// One tube at one cross-section, in its own material frame. C: double, or a dual number where sigma is one.
+template <class C>
+struct TubeState {
+    C EIx, EIy, GJ, EA, GA;
+    C ustar[3];
+    C vstar[3];  // v* - e3
+    C axis[2];   // neutral axis, m from the centreline
+    bool plain;  // v* = e3, neutral axis on the centreline
+};
+
+/// The tube at sigma. shape_scale multiplies the rest strains u* and v* - e3.
+template <class C>
+inline TubeState<C> tube_at(const TubePiece& piece, const C& sigma, double shape_scale) {
+    C q[QUANTITIES];
+    for (int i = 0; i < QUANTITIES; ++i) q[i] = C(piece.c[piece.count - 1][i]);
+    const C d = sigma - piece.start;
+    for (int k = piece.count - 2; k >= 0; --k)
+        for (int i = 0; i < QUANTITIES; ++i) q[i] = q[i] * d + piece.c[k][i];
+    for (int i = USTAR; i < AXIS; ++i) q[i] = q[i] * shape_scale;
+    return {q[EIX],       q[EIY],       q[GJ],        q[EA],        q[GA],
+            {q[USTAR], q[USTAR + 1], q[USTAR + 2]}, {q[VSTAR], q[VSTAR + 1], q[VSTAR + 2]}, {q[AXIS], q[AXIS + 1]},
+            piece.plain != 0};
+}
+
+}  // namespace tactr
