@@ -200,7 +200,7 @@ def _equivalent(
         EI_x=along if x_side else EI,
         EI_y=EI if x_side else along,
         GJ=series(G * wall.torsion, whole.GJ),
-        neutral_axis=(shift * dx, shift * dy),
+        neutral_axis=(shift * dx + 0.0, shift * dy + 0.0),
         outer_diameter=notches.outer_diameter,
         inner_diameter=notches.inner_diameter,
         linear_density=density,
