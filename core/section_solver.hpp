@@ -50,6 +50,29 @@ class SectionSolver {
         return true;
     }
 
+    /// Energy per length in the tubes, and that of the tendons' pull: tension times length.
+    double stored(const Section<P>& section, const Strains& e) const {
+        double sum = 0.0;
+        for (int a = 0; a < section.active_count; ++a) {
+            const TubePiece& tube = robot_.pieces[section.piece[a]];
+            double n[3], m[3], ustar[3];
+            rest_curvature(section, a, ustar);
+            elastic_wrench(tube, ustar, value(cosine[a]), value(sine[a]), e, a, n, m);
+            // half the product of stress and strain, in the tube's frame: u - u* from m
+            const double c = value(cosine[a]), s = value(sine[a]);
+            const double bx = c * m[0] + s * m[1], by = c * m[1] - s * m[0];
+            sum += 0.5 * (bx * bx / tube.EIx + by * by / tube.EIy + m[2] * m[2] / tube.GJ + n[2] * n[2] / tube.EA +
+                          (n[0] * n[0] + n[1] * n[1]) / tube.GA);
+        }
+        for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
+            const TendonState<double> tendon = plain(tendons[h]);
+            double n[3] = {}, m[3] = {}, speed, t[3], r[2];
+            add_tendon(tendon, value(cosine[tendon.slot]), value(sine[tendon.slot]), e, n, m, speed, t, r);
+            sum += tendon.tension * speed;
+        }
+        return sum;
+    }
+
   private:
     // Of loose marches, which only lead to the strict one: below the first residual a linear step ends the solve,
     // below the second, without derivatives, no step is taken.
@@ -208,29 +231,13 @@ class SectionSolver {
     /// The convex function of the strains of which the section's equations are the stationarity (up to terms of the
     /// order of the stretch): it tells a good step where the residual, after a sharp turn of a tendon, does not.
     double energy(const Section<P>& section, const T* z, const Packing& packing, const Strains& e) const {
-        double sum = 0.0;
+        double sum = stored(section, e);
         if (packing.sums >= 0) {
             const T* sums = z + packing.sums;
             sum -= value(sums[0]) * e.wx + value(sums[1]) * e.wy + value(sums[2]) * e.kx + value(sums[3]) * e.ky;
         }
-        for (int a = 0; a < section.active_count; ++a) {
-            const TubePiece& tube = robot_.pieces[section.piece[a]];
-            double n[3], m[3], ustar[3];
-            rest_curvature(section, a, ustar);
-            elastic_wrench(tube, ustar, value(cosine[a]), value(sine[a]), e, a, n, m);
-            // half the product of stress and strain, in the tube's frame: u - u* from m
-            const double c = value(cosine[a]), s = value(sine[a]);
-            const double bx = c * m[0] + s * m[1], by = c * m[1] - s * m[0];
-            sum += 0.5 * (bx * bx / tube.EIx + by * by / tube.EIy + m[2] * m[2] / tube.GJ + n[2] * n[2] / tube.EA +
-                          (n[0] * n[0] + n[1] * n[1]) / tube.GA);
+        for (int a = 0; a < section.active_count; ++a)
             sum -= value(z[3 * a + 1]) * e.eta[a] + value(z[3 * a + 2]) * e.tau[a];
-        }
-        for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
-            const TendonState<double> tendon = plain(tendons[h]);
-            double n[3] = {}, m[3] = {}, speed, t[3], r[2];
-            add_tendon(tendon, value(cosine[tendon.slot]), value(sine[tendon.slot]), e, n, m, speed, t, r);
-            sum += tendon.tension * speed;
-        }
         return std::isfinite(sum) ? sum : INFINITY;
     }
 

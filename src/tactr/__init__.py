@@ -32,7 +32,7 @@ if TYPE_CHECKING:
         TensionProfile,
         Tube,
     )
-    from tactr.statics import Prepared, Shape, Status, TendonShape, TipJacobian, TubeShape, solve
+    from tactr.statics import Prepared, Shape, Stability, Status, TendonShape, TipJacobian, TubeShape, solve
 
 _HOME = {
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
@@ -57,7 +57,7 @@ _HOME = {
         "TensionProfile",
         "Tube",
     ),
-    "tactr.statics": ("Prepared", "Shape", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"),
+    "tactr.statics": ("Prepared", "Shape", "Stability", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 _SUBMODULES = ("examples", "materials", "reference")
@@ -83,6 +83,7 @@ __all__ = [
     "Rod",
     "Shape",
     "Spline",
+    "Stability",
     "Status",
     "Stiffness",
     "Straight",
