@@ -55,8 +55,8 @@ class BranchFinder {
         Mesh mesh = trial.mesh;
         if (!newton_.plain_residual(start, mesh, r)) return;
         unwind(r, trial.free_end);
-        if (!newton_.newton(trial, ROUGH, false) || known(trial) || of_known_family(trial)) return;
-        if (newton_.polish(trial)) keep(trial);
+        if (!newton_.newton(trial, ROUGH, false) || known(trial)) return;
+        if (newton_.polish(trial) && !of_known_family(trial)) keep(trial);
     }
 
     /// Adds a converged solution, with its stability and energy.
@@ -140,7 +140,7 @@ class BranchFinder {
         if (!families_ || !is_neutral(solution)) return false;
         const double energy = energy_of(newton_.robot, solution);
         for (const Solution& other : found)
-            if (is_neutral(other) && std::fabs(other.energy - energy) < 1e-6 * std::fabs(energy)) return true;
+            if (is_neutral(other) && std::fabs(other.energy - energy) < SAME * newton_.shooting.moment_scale) return true;
         return false;
     }
 

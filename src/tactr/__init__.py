@@ -32,7 +32,20 @@ if TYPE_CHECKING:
         TensionProfile,
         Tube,
     )
-    from tactr.statics import Prepared, Shape, Stability, Status, TendonShape, TipJacobian, TubeShape, solve
+    from tactr.statics import (
+        Followed,
+        Prepared,
+        Shape,
+        Snap,
+        Stability,
+        Status,
+        TendonShape,
+        TipJacobian,
+        TubeShape,
+        branches,
+        follow,
+        solve,
+    )
 
 _HOME = {
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
@@ -57,7 +70,20 @@ _HOME = {
         "TensionProfile",
         "Tube",
     ),
-    "tactr.statics": ("Prepared", "Shape", "Stability", "Status", "TendonShape", "TipJacobian", "TubeShape", "solve"),
+    "tactr.statics": (
+        "Followed",
+        "Prepared",
+        "Shape",
+        "Snap",
+        "Stability",
+        "Status",
+        "TendonShape",
+        "TipJacobian",
+        "TubeShape",
+        "branches",
+        "follow",
+        "solve",
+    ),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 _SUBMODULES = ("examples", "materials", "reference")
@@ -67,6 +93,7 @@ __all__ = [
     "Annulus",
     "DistributedLoad",
     "FileError",
+    "Followed",
     "Function",
     "Gravity",
     "Helix",
@@ -82,6 +109,7 @@ __all__ = [
     "RobotError",
     "Rod",
     "Shape",
+    "Snap",
     "Spline",
     "Stability",
     "Status",
@@ -94,7 +122,9 @@ __all__ = [
     "TipJacobian",
     "Tube",
     "TubeShape",
+    "branches",
     "examples",
+    "follow",
     "load",
     "materials",
     "reference",
