@@ -15,6 +15,7 @@
 #include "sample.hpp"
 #include "sensitivity.hpp"
 #include "solve.hpp"
+#include "stability.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -140,12 +141,17 @@ std::vector<double> copied(const Vector& v, size_t expected, const char* name) {
     return std::vector<double>(v.data(), v.data() + expected);
 }
 
-tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
-                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps) {
+tactr::Solution blank(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation) {
     tactr::Solution solution;
     solution.tension = copied(tension, robot.tendons.size(), "tension");
     solution.rotation = copied(rotation, robot.tubes.size(), "rotation");
     solution.translation = copied(translation, robot.tubes.size(), "translation");
+    return solution;
+}
+
+tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
+                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay) {
+    tactr::Solution solution = blank(robot, tension, rotation, translation);
     nb::gil_scoped_release release;
     const tactr::Robot view = robot.view();
     const tactr::Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
@@ -153,8 +159,21 @@ tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const V
     settings.tolerance = tolerance;
     settings.residual_tolerance = residual_tolerance;
     settings.fixed_steps = steps;
+    settings.stay = stay;
     tactr::solve(view, actuation, settings, guess, solution);
     return solution;
+}
+
+std::vector<tactr::Solution> branches(const PreparedRobot& robot, const Vector& tension, const Vector& rotation,
+                                      const Vector& translation, double tolerance, double residual_tolerance, int samples) {
+    const tactr::Solution empty = blank(robot, tension, rotation, translation);
+    nb::gil_scoped_release release;
+    const tactr::Robot view = robot.view();
+    const tactr::Actuation<double> actuation{empty.tension.data(), empty.rotation.data(), empty.translation.data(), 1.0, 1.0};
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    return tactr::branches(view, actuation, settings, samples, empty);
 }
 
 template <size_t N>
@@ -267,6 +286,18 @@ nb::dict energetics(const PreparedRobot& robot, const tactr::Solution& solution)
     return out;
 }
 
+nb::tuple stability(const PreparedRobot& robot, const tactr::Solution& solution, int samples) {
+    tactr::StabilityReport report;
+    const tactr::Robot view = robot.view();
+    if (!tactr::stability_of(view, solution, samples, report)) throw std::runtime_error("the Jacobi field of the solution was not found");
+    const auto array = [](const std::vector<double>& data) { return vector_of(data.data(), data.size()); };
+    return nb::make_tuple(report.stable, report.margin, array(report.s), array(report.determinant), array(report.conjugate));
+}
+
+double free_end_distance(const PreparedRobot& robot, const tactr::Solution& a, const tactr::Solution& b) {
+    return tactr::free_end_distance(robot.view(), a, b);
+}
+
 }  // namespace
 
 NB_MODULE(_core, m) {
@@ -296,6 +327,8 @@ NB_MODULE(_core, m) {
         .def_ro("shortest_tendon", &tactr::Solution::shortest_tendon)
         .def_ro("base_determinant", &tactr::Solution::base_determinant)
         .def_ro("used_continuation", &tactr::Solution::used_continuation)
+        .def_prop_ro("stability", [](const tactr::Solution& s) { return static_cast<int>(s.stability); })
+        .def_ro("switched", &tactr::Solution::switched)
         .def_prop_ro("steps", [](const tactr::Solution& s) { return s.mesh.steps; })
         .def_prop_ro("free_end_psi",
                      [](const tactr::Solution& s) { return vector_of(s.free_end.psi, s.rotation.size()); })
@@ -306,7 +339,13 @@ NB_MODULE(_core, m) {
         .def_prop_ro("tip_quaternion", [](const tactr::Solution& s) { return vector_of(s.tip_quaternion, 4); });
 
     m.def("solve", &solve, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
-          "guess"_a = nb::none(), "steps"_a = 0, "Free-end unknowns, residuals and tip of one robot at one actuation.");
+          "guess"_a = nb::none(), "steps"_a = 0, "stay"_a = false, "Free-end unknowns, residuals and tip of one robot at one actuation.");
+    m.def("branches", &branches, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
+          "samples"_a = 0, "All equilibria found at one actuation, stable ones first, then by energy.");
+    m.def("stability", &stability, "robot"_a, "solution"_a, "samples"_a, "stable, margin, s, determinant, conjugate points.");
+    m.def("potential_energy", [](const PreparedRobot& robot, const tactr::Solution& s) { return tactr::potential_energy(robot.view(), s); },
+          "robot"_a, "solution"_a, "Potential energy, J.");
+    m.def("free_end_distance", &free_end_distance, "robot"_a, "a"_a, "b"_a, "Largest turn between two free ends, rad.");
     m.def("tip_jacobian", &tip_jacobian, "robot"_a, "solution"_a, "d(tip position, tip rotation)/d(tensions, rotations).");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");

@@ -33,23 +33,53 @@ bool entry_hamiltonian(M& march, const Robot& robot, const Layout<double>& layou
     return true;
 }
 
+/// One plain march of a converged solution, watched by the reader.
+struct EnergyMarch {
+    const Layout<double> layout;
+    const Actuation<double> actuation;
+    const Shooting shooting;
+    March<double, double> march;
+    EnergyReader reader;
+
+    EnergyMarch(const Robot& robot, const Solution& solution)
+        : layout(cut_into_sections(robot, solution.translation.data())),
+          actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0},
+          shooting(robot, layout), march(robot, layout, actuation, shooting.full_options()), reader(robot, layout, actuation) {
+        shooting.scale(march);
+    }
+
+    bool run(const Solution& solution) {
+        Mesh mesh = solution.mesh;
+        return march.run(solution.free_end, mesh, reader);
+    }
+
+    double load_potential() const {
+        double sum = -reader.load_work;
+        for (int c = 0; c < 3; ++c) sum += reader.load_sum[c] * march.base.position[c];
+        return sum;
+    }
+};
+
+/// Strain energy, that of the tendons' pull (tension times length) and of dead forces, J; the largest double where the
+/// march fails. Moments and loads in body axes have no potential and are left out.
+inline double potential_energy(const Robot& robot, const Solution& solution) {
+    EnergyMarch pass(robot, solution);
+    if (!pass.run(solution)) return std::numeric_limits<double>::max();
+    double sum = pass.reader.pulled + pass.load_potential();
+    for (double energy : pass.reader.stored) sum += energy;
+    return sum;
+}
+
 inline bool energetics(const Robot& robot, const Solution& solution, Energetics& out) {
-    const Layout<double> layout = cut_into_sections(robot, solution.translation.data());
-    const Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
-    const Shooting shooting(robot, layout);
-    March<double, double> march(robot, layout, actuation, shooting.full_options());
-    shooting.scale(march);
-    Mesh mesh = solution.mesh;
-    EnergyReader reader(robot, layout, actuation);
-    if (!march.run(solution.free_end, mesh, reader)) return false;
-    out.strain_energy = reader.stored;
-    out.load_potential = -reader.load_work;
-    for (int c = 0; c < 3; ++c) out.load_potential += reader.load_sum[c] * march.base.position[c];
+    EnergyMarch pass(robot, solution);
+    if (!pass.run(solution)) return false;
+    out.strain_energy = pass.reader.stored;
+    out.load_potential = pass.load_potential();
     out.torque.clear();
-    for (int i = 0; i < robot.tube_count; ++i) out.torque.push_back(-march.y[M3 + i]);
+    for (int i = 0; i < robot.tube_count; ++i) out.torque.push_back(-pass.march.y[M3 + i]);
     double entry[MAX_TUBES];
-    if (!entry_hamiltonian(march, robot, layout, reader, entry)) return false;
-    out.force = BaseForces(robot, layout, reader, solution.translation.data()).find(entry);
+    if (!entry_hamiltonian(pass.march, robot, pass.layout, pass.reader, entry)) return false;
+    out.force = BaseForces(robot, pass.layout, pass.reader, solution.translation.data()).find(entry);
     return true;
 }
 

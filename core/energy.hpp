@@ -29,6 +29,7 @@ class EnergyReader : public EndsReader {
   public:
     using Stages = void;
     std::vector<double> stored, carried;  // per tube; stored: strain energy; carried: the integrals of the translation's derivative
+    double pulled = 0.0;                         // integral of tension along the tendons, J
     double load_work = 0.0;                      // sum of force * position, in the march's axes
     double load_sum[3] = {0.0, 0.0, 0.0};        // of the forces outside the guide
 
@@ -43,9 +44,12 @@ class EnergyReader : public EndsReader {
             stored[section.active[a]] += weight * energy_density(march, a);
             carried[section.active[a]] -= weight * stiffness_slope(march, section, a, s);
         }
-        for (int h = section.hosted.begin; h < section.hosted.end; ++h)
+        for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
+            const int place = h - section.hosted.begin;
+            pulled += weight * march.solver.tendons[place].tension / march.solver.tendon_tangents[place].inverse;
             carried[robot_.tendons[layout_.hosted[h].tendon].tube] -=
-                weight * route_slope(march, section, layout_.hosted[h], h - section.hosted.begin, s);
+                weight * route_slope(march, section, layout_.hosted[h], place, s);
+        }
         for (int d = section.distributed_loads.begin; d < section.distributed_loads.end; ++d)
             take_distributed_load(march, section, layout_.distributed_loads[d], s, weight);
     }

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <vector>
 
+#include "dense_output.hpp"
 #include "free_end.hpp"
 #include "march.hpp"
-#include "solve.hpp"
+#include "solution.hpp"
 
 namespace tactr {
 
@@ -45,9 +46,9 @@ class Sampler {
         const double end = s + h;
         bool last_step = std::fabs(end - section.proximal) < 1e-9 * (section.distal - section.proximal);
         if (next_ < 0 || (stations_[next_] <= end && !(first && last_step))) return;
-        prepare(march, section, before, s, h);
+        if (!dense_.prepare(march, section, before, s, h)) return;
         while (next_ >= 0 && (stations_[next_] > end || (first && last_step && stations_[next_] >= end - 1e-12))) {
-            read(march, section, before, s, h, next_);
+            read(march, section, s, h, next_);
             --next_;
         }
     }
@@ -58,57 +59,15 @@ class Sampler {
     const std::vector<double>& stations_;
     Samples& samples_;
     int next_;
-    double coefficient_[dp8::DENSE_TERMS][STATES];
-    Strains strains_;
+    DenseOutput<double> dense_;
 
     template <class M>
-    void prepare(M& march, const Section<double>& section, const double* before, double s, double h) {
-        auto& k = march.k;
-        const int count = march.packing.count;
-        strains_ = start(march, section);
-        march.derivative(section, s + h, march.z, k[12], strains_);
-        double stage[STATES];
-        for (int i = 13; i < dp8::DENSE_STAGES; ++i) {
-            for (int n = 0; n < count; ++n) {
-                double sum = 0.0;
-                for (int j = 0; j < i; ++j)
-                    if (dp8::A[i][j] != 0.0) sum += dp8::A[i][j] * k[j][n];
-                stage[n] = before[n] + h * sum;
-            }
-            march.derivative(section, s + h * dp8::C[i], stage, k[i], strains_);
-        }
-        for (int n = 0; n < count; ++n) {
-            const double rise = march.z[n] - before[n];
-            coefficient_[0][n] = rise;
-            coefficient_[1][n] = h * k[0][n] - rise;
-            coefficient_[2][n] = 2.0 * rise - h * (k[0][n] + k[12][n]);
-            for (int t = 0; t < 4; ++t) {
-                double sum = 0.0;
-                for (int j = 0; j < dp8::DENSE_STAGES; ++j) sum += dp8::D[t][j] * k[j][n];
-                coefficient_[3 + t][n] = h * sum;
-            }
-        }
-    }
-
-    template <class M>
-    Strains start(M& march, const Section<double>& section) const {
-        Strains e = march.solver.strains;
-        if (section.guided) e.kx = e.ky = e.wx = e.wy = 0.0;
-        return e;
-    }
-
-    template <class M>
-    void read(M& march, const Section<double>& section, const double* before, double s, double h, int station) {
+    void read(M& march, const Section<double>& section, double s, double h, int station) {
         double packed[STATES], state[STATES];
         std::copy(march.y, march.y + STATES, state);
-        const double x = (stations_[station] - s) / h;
-        for (int n = 0; n < march.packing.count; ++n) {
-            double sum = 0.0;
-            for (int t = dp8::DENSE_TERMS - 1; t >= 0; --t) sum = (sum + coefficient_[t][n]) * (t % 2 == 0 ? x : 1.0 - x);
-            packed[n] = before[n] + sum;
-            state[march.packing.index[n]] = packed[n];
-        }
-        march.solver.solve(section, stations_[station], packed, march.packing, strains_);
+        dense_.at((stations_[station] - s) / h, packed);
+        for (int n = 0; n < march.packing.count; ++n) state[march.packing.index[n]] = packed[n];
+        march.solver.solve(section, stations_[station], packed, march.packing, dense_.strains);
         record(march, section, state, samples_.stations[station]);
         record_tendons(march, section, station);
     }
@@ -116,6 +75,7 @@ class Sampler {
     template <class M>
     void record(M& march, const Section<double>& section, const double* state, StationRecord& out) const {
         out = StationRecord{};
+        const Strains& e = dense_.strains;
         double norm = 0.0;
         for (int c = 0; c < 4; ++c) norm += state[QUAT + c] * state[QUAT + c];
         for (int c = 0; c < 4; ++c) out.quaternion[c] = state[QUAT + c] / std::sqrt(norm);
@@ -123,16 +83,16 @@ class Sampler {
         for (int a = 0; a < section.active_count; ++a) {
             const int i = section.active[a];
             const TubeState<double>& tube = march.solver.tubes[a];
-            const double c = march.solver.cosine[a], s = march.solver.sine[a], stretch = 1.0 + strains_.eta[a];
+            const double c = march.solver.cosine[a], s = march.solver.sine[a], stretch = 1.0 + e.eta[a];
             out.present[i] = 1;
             out.psi[i] = state[PSI + i];
-            const double u[3] = {c * strains_.kx + s * strains_.ky, c * strains_.ky - s * strains_.kx, strains_.tau[a]};
-            const double v[2] = {stretch * (c * strains_.wx + s * strains_.wy), stretch * (c * strains_.wy - s * strains_.wx)};
+            const double u[3] = {c * e.kx + s * e.ky, c * e.ky - s * e.kx, e.tau[a]};
+            const double v[2] = {stretch * (c * e.wx + s * e.wy), stretch * (c * e.wy - s * e.wx)};
             std::copy(u, u + 3, out.u[i]);
             std::copy(v, v + 2, out.v[i]);
             out.v[i][2] = stretch;
             double n[3], m[3];
-            elastic_wrench(tube, c, s, strains_, a, n, m);
+            elastic_wrench(tube, c, s, e, a, n, m);
             turn_back(c, s, n, out.n[i]);
             turn_back(c, s, m, out.m[i]);
         }

@@ -5,7 +5,7 @@
 
 #include "free_end.hpp"
 #include "march.hpp"
-#include "solve.hpp"
+#include "solution.hpp"
 
 namespace tactr {
 

@@ -9,12 +9,16 @@ namespace tactr {
 
 enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse = 3, collapsed = 4 };
 
+/// What is known of a solution's stability: unchecked where a guess chose the branch.
+enum class StabilityFound { unchecked = 0, stable = 1, unstable = 2 };
+
 struct Settings {
     double tolerance = 1e-6;           // discretisation error at the tip, m
     double residual_tolerance = 1e-9;  // rad at the base
     int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
     long max_steps = 50000;            // of all marches with derivatives together: a second or so
+    bool stay = false;                 // with a guess: its branch or none, never from cold
 };
 
 struct Solution {
@@ -28,6 +32,9 @@ struct Solution {
     double shortest_tendon = 1.0;  // least |q| of the last marches; near 0: a tendon at the centre of curvature
     double base_determinant = 0.0;  // of d(base)/d(free end)
     bool used_continuation = false;
+    StabilityFound stability = StabilityFound::unchecked;
+    bool switched = false;  // the cold start had found an unstable solution, this one was searched for
+    double energy = 0.0;    // J, where it was needed to choose
     double jacobian[MAX_UNKNOWNS][MAX_UNKNOWNS] = {};  // d(base)/d(free end), last computed
     FreeEnd<double> free_end;
     Mesh mesh;

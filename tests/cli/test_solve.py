@@ -21,6 +21,7 @@ def test_without_a_file_it_solves_two_tubes(run):
         "converged in",
         "residual",
         "error at the tip",
+        "stable, margin",
         "assumed",
     ):
         assert words in out
@@ -55,6 +56,7 @@ def test_json(run):
         "iterations",
         "discretisation_error_m",
         "solve_time_s",
+        "stability",
         "tip",
         "tubes",
         "tendons",

@@ -12,7 +12,8 @@ def json_report(shape: Any) -> str:
     """JSON text of a shape, SI units (the ending of a key is its unit), world axes.
 
     Always there: robot (name), converged, status, message, residual (largest scaled equation), iterations,
-    discretisation_error_m, solve_time_s. Where converged: tip (position_m, quaternion_wxyz), tubes (name,
+    discretisation_error_m, solve_time_s. Where converged: stability (stable, margin: 1 unloaded, 0 at the limit,
+    conjugate_points_m, and warning: a text or null), tip (position_m, quaternion_wxyz), tubes (name,
     length_m, translation_m, rotation_rad, tip_position_m), tendons (name, tube, tension_N, length_m),
     transition_points (s_m, position_m), centreline (s_m, position_m).
     """
@@ -37,6 +38,7 @@ def _geometry(shape: Any) -> dict[str, Any]:
     tips = shape.sample(sorted({tube.tip for tube in shape.robot.tubes}))
     tip_at = dict(zip(tips.s.tolist(), tips.centreline.tolist(), strict=True))
     return {
+        "stability": _stability(shape.stability),
         "tip": {"position_m": shape.tip_position.tolist(), "quaternion_wxyz": shape.tip_quaternion.tolist()},
         "tubes": [
             {
@@ -61,6 +63,15 @@ def _geometry(shape: Any) -> dict[str, Any]:
             {"s_m": float(s), "position_m": point.tolist()} for s, point in zip(places, points, strict=True)
         ],
         "centreline": {"s_m": shape.s.tolist(), "position_m": shape.centreline.tolist()},
+    }
+
+
+def _stability(stability: Any) -> dict[str, Any]:
+    return {
+        "stable": stability.stable,
+        "margin": _finite(stability.margin),
+        "conjugate_points_m": stability.conjugate_points.tolist(),
+        "warning": None if stability.stable and not stability.near_limit else str(stability),
     }
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from tactr.robot import Robot, Tendon
     from tactr.statics import Shape
 
-BOLD, FAINT, GREEN = "1", "2", "32"
+BOLD, FAINT, GREEN, YELLOW = "1", "2", "32", "33"
 GAP = "   "
 
 
@@ -29,11 +29,19 @@ def print_report(shape: Shape, written: Sequence[Path] = ()) -> None:
         f" {shape.solve_time * 1e3:.3g} ms: residual {shape.residual:.1e},"
         f" discretisation error at the tip {shape.discretisation_error * 1e6:.2g} um"
     )
+    print(_stability(shape))
     if robot.assumed:
         remark = f"{_count(len(robot.assumed), 'value')} assumed, not given by the source: see tactr check"
         print(_styled(remark, FAINT))
     for path in written:
         print(f"wrote {path}")
+
+
+def _stability(shape: Shape) -> str:
+    stability = shape.stability
+    if stability.stable and not stability.near_limit:
+        return str(stability)
+    return _styled(f"warning: {stability}", YELLOW)
 
 
 def _contents(robot: Robot) -> str:

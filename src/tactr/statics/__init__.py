@@ -2,23 +2,30 @@
 
 from tactr.statics.contact import Contact, GuideReaction, PointContacts
 from tactr.statics.mechanics import ActuatorForces
+from tactr.statics.follow import Followed, Snap, follow
 from tactr.statics.shape import Shape, TendonShape, TipJacobian, TubeShape
-from tactr.statics.solve import Prepared, solve
+from tactr.statics.solve import Prepared, branches, solve
+from tactr.statics.stability import Stability
 from tactr.statics.status import Status
 from tactr.statics.work import Work, work
 
 __all__ = [
     "ActuatorForces",
     "Contact",
+    "Followed",
     "GuideReaction",
     "PointContacts",
     "Prepared",
     "Shape",
+    "Snap",
+    "Stability",
     "Status",
     "TendonShape",
     "TipJacobian",
     "TubeShape",
     "Work",
+    "branches",
+    "follow",
     "solve",
     "work",
 ]

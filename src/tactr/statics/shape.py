@@ -14,6 +14,7 @@ from tactr.errors import NotConverged
 from tactr.robot import Robot
 from tactr.statics.frames import rotation_matrices, turned_about_z
 from tactr.statics.mechanics import Mechanics
+from tactr.statics.stability import Stability, stability_of
 from tactr.statics.stations import Stations, station_places
 from tactr.statics.status import Status, explain, status_of
 
@@ -163,6 +164,22 @@ class Shape(Mechanics):
         self._require_convergence()
         columns = _core.tip_jacobian(self._prepared, self._solution)
         return TipJacobian(*np.split(columns, [len(self._base.tendons)], axis=1))
+
+    @cached_property
+    def stability(self) -> Stability:
+        """Whether the shape is stable, and how far from the limit where it snaps or buckles."""
+        self._require_convergence()
+        return stability_of(self._prepared, self._solution)
+
+    @cached_property
+    def potential_energy(self) -> float:
+        """Potential energy, J: of the tubes, of every tendon (tension times length) and of dead forces.
+
+        Its zero is the robot with unstrained tubes and no tendons, the forces at the guide's exit. Moments
+        and loads in body axes have no potential and do not count.
+        """
+        self._require_convergence()
+        return _core.potential_energy(self._prepared, self._solution)
 
     @cached_property
     def s(self) -> np.ndarray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from time import perf_counter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,15 +38,52 @@ def solve(
 
     tension: N, by tendon; rotation: rad, translation: m <= 0, by tube; each a mapping from names or a
     sequence in order, and what is left out stays as the robot has it. loads: replace the robot's. guess: a
-    neighbouring shape of the same robot, for speed. tolerance: discretisation error at the tip, m. stations:
-    their number, spread evenly over the length outside the guide, or s in m, ascending. Raises RobotError
-    for a wrong actuation.
+    neighbouring shape of the same robot, whose branch is kept, stable or not; without one, an unstable
+    equilibrium is exchanged for a stable one where one is found. tolerance: discretisation error at the tip,
+    m. stations: their number, spread evenly over the length outside the guide, or s in m, ascending. Raises
+    RobotError for a wrong actuation.
     """
     if loads is not None:
         robot = robot.replace(loads=tuple(loads))
     if tension is not None or rotation is not None or translation is not None:
         robot = robot.with_actuation(tension=tension, rotation=rotation, translation=translation)
     return Prepared(robot, tolerance=tolerance, stations=stations).solve(guess=guess)
+
+
+def branches(
+    robot: Robot,
+    *,
+    tension: Tensions | None = None,
+    rotation: Numbers | None = None,
+    translation: Numbers | None = None,
+    loads: Sequence[Load] | None = None,
+    samples: int | None = None,
+    tolerance: float = 1e-6,
+    stations: int | Sequence[float] | np.ndarray = 101,
+) -> list[Shape]:
+    """All equilibria of a robot that a search finds: stable ones first, then by energy; may be empty.
+
+    Searched are all angles of the tubes at their distal ends and, with loads in world axes, all orientations
+    of the tip. For two tubes without such loads a sweep finds every equilibrium; for three and four a grid
+    of simplices, otherwise low-discrepancy starts, both repeated with more samples while the count of stable
+    and unstable equilibria shows that some are missing. Shapes that turn into each other at no cost count as
+    one. samples: points of the first sweep or grid, or starts; None: by the number of unknowns. The rest is
+    as in ``solve``. Raises RobotError.
+    """
+    if loads is not None:
+        robot = robot.replace(loads=tuple(loads))
+    if tension is not None or rotation is not None or translation is not None:
+        robot = robot.with_actuation(tension=tension, rotation=rotation, translation=translation)
+    return Prepared(robot, tolerance=tolerance, stations=stations).branches(samples=samples)
+
+
+class _Actuated(NamedTuple):
+    """The robot at an actuation: what it came from, arrays of tension, rotation and translation, and those
+    of them that the base does not have."""
+
+    base: Robot
+    arrays: tuple[np.ndarray, ...]
+    changed: dict[str, np.ndarray]
 
 
 class Prepared:
@@ -85,6 +123,37 @@ class Prepared:
         guess: Shape | None = None,
     ) -> Shape:
         """As ``tactr.solve``, for this robot."""
+        actuated = self._actuated(tension, rotation, translation)
+        if isinstance(actuated, Prepared):
+            return actuated.solve(guess=guess)
+        return self._solved(actuated, guess)
+
+    def branches(
+        self,
+        *,
+        tension: Tensions | None = None,
+        rotation: Numbers | None = None,
+        translation: Numbers | None = None,
+        samples: int | None = None,
+    ) -> list[Shape]:
+        """As ``tactr.branches``, for this robot."""
+        count = _samples(samples)
+        actuated = self._actuated(tension, rotation, translation)
+        if isinstance(actuated, Prepared):
+            return actuated.branches(samples=samples)
+        return self._found(actuated, count)
+
+    def _found(self, actuated: _Actuated, samples: int) -> list[Shape]:
+        """All equilibria that a search finds; samples 0: as many as fit the number of unknowns."""
+        start = perf_counter()
+        found = _core.branches(self._core, *actuated.arrays, self.tolerance, self.residual_tolerance, samples)
+        elapsed = perf_counter() - start
+        return [self._shape(actuated, solution, elapsed) for solution in found]
+
+    def _actuated(
+        self, tension: Tensions | None, rotation: Numbers | None, translation: Numbers | None
+    ) -> Prepared | _Actuated:
+        """The actuation as arrays; where it replaces a tension profile, another Prepared at that actuation."""
         plain = (
             self._is_plain(tension, self._tension, self._least_tension, np.inf)
             and self._is_plain(rotation, self._rotation, -np.inf, np.inf)
@@ -95,8 +164,7 @@ class Prepared:
         if not plain:
             base = self.robot.with_actuation(**given)
             if any(map(_differs_in_profile, self.robot.tendons, base.tendons)):
-                other = Prepared(base, tolerance=self.tolerance, stations=self._given_stations)
-                return other.solve(guess=guess)
+                return Prepared(base, tolerance=self.tolerance, stations=self._given_stations)
             given = {
                 "tension": _tensions(base),
                 "rotation": _rotations(base),
@@ -104,23 +172,29 @@ class Prepared:
             }
         own = {"tension": self._tension, "rotation": self._rotation, "translation": self._translation}
         arrays = {name: own[name] if array is None else np.array(array) for name, array in given.items()}
+        changed = {name: array for name, array in arrays.items() if plain and array is not own[name]}
+        return _Actuated(base, tuple(arrays.values()), changed)
+
+    def _solved(self, actuated: _Actuated, guess: Shape | None, *, stay: bool = False) -> Shape:
+        """From a guess or from cold; stay: on the guess's branch or not at all."""
         start = perf_counter()
         solution = _core.solve(
             self._core,
-            arrays["tension"],
-            arrays["rotation"],
-            arrays["translation"],
+            *actuated.arrays,
             self.tolerance,
             self.residual_tolerance,
             _start(guess),
+            stay=stay,
         )
-        elapsed = perf_counter() - start
-        moved = arrays["translation"] is not self._translation
+        return self._shape(actuated, solution, perf_counter() - start)
+
+    def _shape(self, actuated: _Actuated, solution: _core.Solution, elapsed: float) -> Shape:
+        moved = actuated.arrays[2] is not self._translation
         return Shape(
             self._core,
             solution,
-            base=base,
-            actuation={name: array for name, array in arrays.items() if plain and array is not own[name]},
+            base=actuated.base,
+            actuation=actuated.changed,
             tolerance=self.tolerance,
             residual_tolerance=self.residual_tolerance,
             stations=self._given_stations if moved else self._stations,
@@ -162,6 +236,14 @@ def _innermost_place(robot: Robot, tube: Tube) -> float:
 def _differs_in_profile(own: Tendon, other: Tendon) -> bool:
     profiled = isinstance(own.tension, TensionProfile) or isinstance(other.tension, TensionProfile)
     return profiled and own.tension != other.tension
+
+
+def _samples(samples: int | None) -> int:
+    if samples is None:
+        return 0
+    if isinstance(samples, bool) or not isinstance(samples, int | np.integer) or samples < 1:
+        raise RobotError("samples", f"{samples!r}", "a whole number above 0, or None", value=samples)
+    return int(samples)
 
 
 def _positive(field: str, number: float) -> float:

@@ -8,9 +8,14 @@ from tactr import _core
 
 
 class Status(str, Enum):
-    """How a solve ended; only CONVERGED carries a shape."""
+    """How a solve ended; only CONVERGED and UNSTABLE carry a shape.
+
+    UNSTABLE: from cold, an equilibrium was found, but no stable one. A solve from a guess stays on its
+    branch and does not look: see ``Shape.stability``.
+    """
 
     CONVERGED = "converged"
+    UNSTABLE = "converged, unstable"
     NO_SECTION_EQUILIBRIUM = "no section equilibrium"
     KINKED = "kinked"
     STALLED = "stalled"
@@ -25,12 +30,15 @@ _BY_CODE = (
     Status.TOO_COARSE,
     Status.COLLAPSED,
 )
+UNSTABLE = 2  # the kernel's code
 KINK = 0.1  # length of a pulled tendon per length of tube, below which the tube is bent round the tendon
 
 
 def status_of(solution: _core.Solution) -> Status:
     """The kernel's status code as a Status."""
     status = _BY_CODE[solution.status]
+    if status is Status.CONVERGED and solution.stability == UNSTABLE:
+        return Status.UNSTABLE
     if status is Status.NO_SECTION_EQUILIBRIUM and solution.shortest_tendon < KINK:
         return Status.KINKED
     return status
@@ -38,13 +46,24 @@ def status_of(solution: _core.Solution) -> Status:
 
 def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
     """One text: what happened, and for a failure what to do about it."""
-    if status is Status.CONVERGED:
+    if status in (Status.CONVERGED, Status.UNSTABLE):
         return (
             f"converged: base missed by {solution.base_residual:.1e} rad, section equilibrium to "
             f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m "
-            "at the tip"
+            f"at the tip{_remark(status, solution)}"
         )
     return _FAILURES[status].format(s=solution, tolerance=tolerance)
+
+
+def _remark(status: Status, solution: _core.Solution) -> str:
+    if status is Status.UNSTABLE:
+        return (
+            ". This equilibrium is unstable, and no stable one was found: a real robot does not stay there. "
+            "Lower the loads, tensions or curvatures, or shorten the straight lengths behind the guide."
+        )
+    if solution.switched:
+        return "; the equilibrium found first was unstable, this is the stable one of least energy found"
+    return ""
 
 
 _FAILURES = {

@@ -1,0 +1,165 @@
+"""Follows one solution along an actuation path, through snaps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactr import _core
+from tactr.errors import RobotError
+from tactr.robot import Robot
+from tactr.statics.path import Path, path_points
+from tactr.statics.shape import Shape
+from tactr.statics.solve import Prepared, _Actuated, _rotations, _tensions, _translations
+
+LONGEST_TURN = 0.1  # rad at the free ends in one step: a larger one is taken in smaller steps, or is a snap
+FIRST_STEP, GROWTH = 0.25, 1.6
+
+
+@dataclass(frozen=True, eq=False)
+class Snap:
+    """A jump to another branch. parameter: where on the path, in points (2.5: halfway between the third and the
+    fourth), to the tolerance asked for; before: the last shape of the old branch; after: the shape landed on."""
+
+    parameter: float
+    before: Shape
+    after: Shape
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Followed:
+    """A solution along a path: shapes, one for every point, converged or not; snaps, in their order."""
+
+    shapes: tuple[Shape, ...]
+    snaps: tuple[Snap, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether all shapes are."""
+        return all(shape.converged for shape in self.shapes)
+
+    @property
+    def tips(self) -> np.ndarray:
+        """Position of the distal end at every point, (points, 3), m, world axes."""
+        return np.array([shape.tip_position for shape in self.shapes])
+
+    def __repr__(self) -> str:
+        at = f" at {', '.join(f'{snap.parameter:.4g}' for snap in self.snaps)}" if self.snaps else ""
+        good = sum(shape.converged for shape in self.shapes)
+        return f"<Followed: {good} of {len(self.shapes)} points converged, {len(self.snaps)} snaps{at}>"
+
+
+def follow(
+    robot: Robot,
+    path: Path,
+    *,
+    start: Shape | None = None,
+    tolerance: float = 1e-6,
+    snap_tolerance: float = 1e-4,
+    stations: int | Sequence[float] | np.ndarray = 101,
+) -> Followed:
+    """Follows one solution along a path of actuation; a result always comes back.
+
+    path: a sequence of mappings with tension (N), rotation (rad) or translation (m), each as in ``solve``;
+    or one mapping from these names to arrays (points, tendons or tubes). In between the actuation is linear;
+    what is left out stays as the robot has it. start: a shape near the first point, whose branch is taken,
+    otherwise that of a cold solve. The path is walked in adaptive steps in which no tube turns by more than
+    0.1 rad at its end; where the branch ends or loses its stability, it snaps: to the nearest stable shape of
+    less energy, as a slow, damped robot would, or, if there is none, to the nearest stable one. A jump of
+    less than 0.1 rad is not told from a fast motion. snap_tolerance: how closely a snap is located, in points
+    of the path. tolerance, stations: as in ``solve``. Raises RobotError.
+    """
+    if not (isinstance(snap_tolerance, int | float) and 0.0 < snap_tolerance <= FIRST_STEP):
+        raise RobotError(
+            "snap_tolerance", f"{snap_tolerance!r}", f"a number in (0, {FIRST_STEP}]", value=snap_tolerance
+        )
+    points = path_points(robot, path)
+    prepared = Prepared(points[0], tolerance=tolerance, stations=stations)
+    return _Follower(prepared, points, float(snap_tolerance)).run(start)
+
+
+class _Follower:
+    """The walk: arrays of actuation, a row for every point."""
+
+    def __init__(self, prepared: Prepared, points: list[Robot], least_step: float) -> None:
+        self._prepared = prepared
+        self._base = points[0]
+        self._rows = [np.array([read(p) for p in points]) for read in (_tensions, _rotations, _translations)]
+        self._count = len(points)
+        self._least_step = least_step
+        self._step = FIRST_STEP
+        self._snaps: list[Snap] = []
+
+    def run(self, start: Shape | None) -> Followed:
+        shape = self._solve(0.0, start) if start is not None else None
+        if shape is None or not shape.converged:
+            shape = self._solve(0.0, None)
+        shapes = [shape]
+        for k in range(1, self._count):
+            shape = self._walk(shape, k - 1.0, float(k))
+            shapes.append(shape)
+        return Followed(tuple(shapes), tuple(self._snaps))
+
+    def _at(self, t: float) -> _Actuated:
+        k = min(int(math.floor(t)), max(self._count - 2, 0))
+        part = t - k
+        rows = [(r[k] if part == 0.0 else (1.0 - part) * r[k] + part * r[k + 1]) for r in self._rows]
+        changed = dict(zip(("tension", "rotation", "translation"), rows, strict=True))
+        profiled = self._prepared._least_tension == np.inf  # a profile is not replaced by a number
+        if profiled.any():
+            del changed["tension"]
+        return _Actuated(self._base, tuple(rows), changed)
+
+    def _solve(self, t: float, guess: Shape | None) -> Shape:
+        return self._prepared._solved(self._at(t), guess, stay=guess is not None)
+
+    def _walk(self, shape: Shape, t: float, end: float) -> Shape:
+        if not shape.converged:
+            return self._solve(end, None)
+        while t < end:
+            step = min(self._step, end - t)
+            ahead = end if step >= end - t else t + step
+            candidate = self._solve(ahead, shape)
+            if self._continues(shape, candidate):
+                shape, t = candidate, ahead
+                self._step = min(GROWTH * max(step, self._least_step), 1.0)
+            elif step > self._least_step:
+                self._step = 0.5 * step
+            else:
+                after = self._land(shape, ahead)
+                if not after.converged:
+                    return after if ahead == end else self._solve(end, None)
+                shape, t, self._step = after, ahead, FIRST_STEP
+        return shape
+
+    def _continues(self, shape: Shape, candidate: Shape) -> bool:
+        """On the same branch: near, and not unstable where the shape before was stable."""
+        if not candidate.converged or self._turn(shape, candidate) > LONGEST_TURN:
+            return False
+        return self._stable(candidate) or not self._stable(shape)
+
+    def _land(self, shape: Shape, t: float) -> Shape:
+        """The stable shape that a shape moves to where its branch is lost. Noted as a snap if it is far."""
+        found = self._prepared._found(self._at(t), 0)
+        stable = [other for other in found if self._stable(other)]
+        if not stable:
+            after = found[0] if found else self._solve(t, None)
+        else:
+            lower = [other for other in stable if other.potential_energy <= shape.potential_energy]
+            after = min(lower or stable, key=lambda other: self._turn(shape, other))
+            nearest = min(stable, key=lambda other: self._turn(shape, other))
+            if self._turn(shape, nearest) <= LONGEST_TURN:
+                return nearest
+        self._snaps.append(Snap(t, shape, after))
+        return after
+
+    @staticmethod
+    def _stable(shape: Shape) -> bool:
+        return bool(_core.stability(shape._prepared, shape._solution, 0)[0])
+
+    @staticmethod
+    def _turn(a: Shape, b: Shape) -> float:
+        return _core.free_end_distance(a._prepared, a._solution, b._solution)
