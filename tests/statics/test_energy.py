@@ -71,7 +71,7 @@ def test_twist_by_a_moment_at_the_tip() -> None:
 
 @pytest.mark.parametrize("translation", [0.0, -BEHIND])
 def test_an_axial_load_is_pushed_out(translation: float) -> None:
-    force = 3.0
+    force = 0.2  # below the buckling load pi^2 EI / (2 L)^2
     shape = tactr.solve(Robot([rod(translation=translation)], loads=[PointLoad("rod", force=(0, 0, -force))]))
     out = LENGTH + translation
     assert shape.energy == pytest.approx(0.5 * force**2 / EA * LENGTH, rel=1e-9)
