@@ -3,6 +3,7 @@
 from tactr.statics.contact import Contact, GuideReaction, PointContacts
 from tactr.statics.mechanics import ActuatorForces
 from tactr.statics.follow import Followed, Snap, follow
+from tactr.statics.rest import rest_lengths
 from tactr.statics.shape import Shape, TendonShape, TipJacobian, TubeShape
 from tactr.statics.solve import Prepared, branches, solve
 from tactr.statics.stability import Stability
@@ -26,6 +27,7 @@ __all__ = [
     "Work",
     "branches",
     "follow",
+    "rest_lengths",
     "solve",
     "work",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,11 +13,13 @@ import numpy as np
 from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
+from tactr.statics.displacement import Pulled
 from tactr.statics.frames import rotation_matrices, turned_about_z
 from tactr.statics.mechanics import Mechanics
+from tactr.statics.rest import RestState
 from tactr.statics.stability import Stability, stability_of
 from tactr.statics.stations import Stations, station_places
-from tactr.statics.status import Status, explain, status_of
+from tactr.statics.status import Status, explain, status_of, told_with_pulls
 
 if TYPE_CHECKING:
     import xarray
@@ -53,7 +56,9 @@ class TendonShape:
     """One tendon along the stations where it runs outside the guide, k of them.
 
     name; tube: where it ends; s (k,) m; path (k, 3) m, world axes; tension (k,) N; length: m, of the
-    deformed tendon from its tube's proximal end to its termination.
+    deformed tendon from its tube's proximal end to its termination; displacement: m, what its motor pulls,
+    None where it is pulled by a tension (see ``Shape.displacement``); slack: it has a displacement, and no
+    tension.
     """
 
     name: str
@@ -62,27 +67,34 @@ class TendonShape:
     path: np.ndarray
     tension: np.ndarray
     length: float
+    displacement: float | None = None
+    slack: bool = False
 
     def __repr__(self) -> str:
-        return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm>"
+        state = ", slack" if self.slack else ""
+        return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm{state}>"
 
 
 class TipJacobian(NamedTuple):
     """Derivatives of the tip: rows are its position (m), then its small rotation (rad), both in world axes.
 
-    tension (6, tendons), per N; rotation (6, tubes), per rad. A tendon with a TensionProfile counts per unit
-    of a factor on the whole profile.
+    tension (6, tendons), per N; rotation (6, tubes), per rad: at the present tensions of all tendons, also of
+    those pulled by displacements. A tendon with a TensionProfile counts per unit of a factor on the whole
+    profile. displacement (6, tendons), per m: the motors of all tendons pulled by displacements held but one,
+    the other tendons at their tension; 0 for slack tendons and for those pulled by a tension. Where a slack
+    tendon is about to be taut it is the derivative on the slack side.
     """
 
     tension: np.ndarray
     rotation: np.ndarray
+    displacement: np.ndarray
 
 
 class Shape(Mechanics):
     """The shape of a robot under given actuation, or why there is none.
 
     Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,
-    discretisation_error, tolerance, solve_time. The geometry raises NotConverged unless converged. World
+    discretisation_error, tolerance, solve_time, displacement_error. The geometry raises NotConverged unless converged. World
     frame: z along the guide, which the robot leaves at s = 0.
     """
 
@@ -97,6 +109,8 @@ class Shape(Mechanics):
         residual_tolerance: float,
         stations: Stations,
         solve_time: float,
+        pulled: Pulled | None = None,
+        rest: Callable[[], RestState],
     ) -> None:
         self.tolerance = tolerance
         self.residual_tolerance = residual_tolerance
@@ -106,6 +120,8 @@ class Shape(Mechanics):
         self._base = base
         self._actuation = actuation
         self._stations = stations
+        self._pulled = pulled
+        self._rest = rest
 
     @cached_property
     def robot(self) -> Robot:
@@ -115,17 +131,19 @@ class Shape(Mechanics):
     @property
     def status(self) -> Status:
         """How the solve ended."""
-        return status_of(self._solution)
+        return status_of(self._solution, self._pulled)
 
     @property
     def converged(self) -> bool:
-        """True when every scaled residual and the discretisation error are below their tolerances."""
-        return self._solution.status == 0
+        """True when every scaled residual, the discretisation error and what is missing in displacements are
+        below their tolerances."""
+        return self._solution.status == 0 and (self._pulled is None or self._pulled.met)
 
     @property
     def message(self) -> str:
         """What happened; for a failure its cause and remedy."""
-        return explain(self.status, self._solution, self.tolerance)
+        text = explain(self.status, self._solution, self.tolerance)
+        return text if self._pulled is None else told_with_pulls(text, self.status, self._pulled, self._base)
 
     @property
     def residual(self) -> float:
@@ -135,7 +153,40 @@ class Shape(Mechanics):
     @property
     def iterations(self) -> int:
         """Marches with derivatives that the solve took."""
-        return self._solution.iterations
+        return self._solution.iterations if self._pulled is None else self._pulled.marches
+
+    @property
+    def displacement_error(self) -> float:
+        """What is missing in the displacement of a tendon, at most, m: a taut tendon's motor elsewhere than
+        asked for, or a slack one's beyond. A tenth of ``tolerance`` is allowed; 0 without displacements."""
+        return 0.0 if self._pulled is None else float(self._pulled.missed.max())
+
+    @property
+    def slack(self) -> tuple[str, ...]:
+        """Names of the tendons pulled by a displacement that have no tension."""
+        self._require_convergence()
+        return () if self._pulled is None else self._pulled.slack(self._base)
+
+    @property
+    def tension(self) -> np.ndarray:
+        """Tension of every tendon at its motor, (tendons,), N; 1 for a TensionProfile."""
+        self._require_convergence()
+        return self._solution.tension
+
+    @cached_property
+    def displacement(self) -> np.ndarray:
+        """What the motor of every tendon pulls, (tendons,), m: as given, or for one pulled by a tension the
+        displacement that goes with it, rest length - length + compliance (tension - pretension)."""
+        self._require_convergence()
+        robot, rest = self.robot, self._rest()
+        rotation, translation = (
+            np.array([getattr(tube, name) for tube in robot.tubes]) for name in ("rotation", "translation")
+        )
+        lengths = rest.lengths(rotation, translation, needed=np.ones(len(robot.tendons), dtype=bool))
+        compliance = np.array([tendon.compliance for tendon in robot.tendons])
+        pull = lengths - self._solution.tendon_length + compliance * (self._solution.tension - rest.pretension)
+        given = [tendon.displacement for tendon in robot.tendons]
+        return np.array([own if asked is None else asked for own, asked in zip(pull, given, strict=True)])
 
     @property
     def discretisation_error(self) -> float:
@@ -160,10 +211,14 @@ class Shape(Mechanics):
         return rotation_matrices(self.tip_quaternion)
 
     def tip_jacobian(self) -> TipJacobian:
-        """Exact derivatives of the tip pose with respect to tensions and rotations."""
+        """Exact derivatives of the tip pose with respect to tensions, rotations and displacements."""
         self._require_convergence()
         columns = _core.tip_jacobian(self._prepared, self._solution)
-        return TipJacobian(*np.split(columns, [len(self._base.tendons)], axis=1))
+        tension, rotation = np.split(columns, [len(self._base.tendons)], axis=1)
+        displacement = np.zeros_like(tension)
+        if self._pulled is not None:
+            displacement = tension @ self._pulled.tension_jacobian(self._prepared)
+        return TipJacobian(tension, rotation, displacement)
 
     @cached_property
     def stability(self) -> Stability:
@@ -229,6 +284,8 @@ class Shape(Mechanics):
             residual_tolerance=self.residual_tolerance,
             stations=station_places(self.robot, stations),
             solve_time=self.solve_time,
+            pulled=self._pulled,
+            rest=self._rest,
         )
 
     def plot(self, path: str | Path | None = None) -> Figure:
@@ -303,4 +360,6 @@ class Shape(Mechanics):
             path=self.centreline[here] + offset,
             tension=records[here, 3],
             length=float(self._solution.tendon_length[j]),
+            displacement=tendon.displacement,
+            slack=tendon.displacement is not None and bool(self._solution.tension[j] == 0.0),
         )
