@@ -244,13 +244,16 @@ class DisplacementSolver:
         m = len(solution.tension)
         columns = np.zeros((m, m))
         for j in self._pulls.index:
+            ends = [(solution.tension[j], solution.tendon_length)]
             h = 1e-3 * max(float(solution.tension[j]), 0.05)
-            ends = []
             for sign in (1.0, -1.0):
                 moved = solution.tension.copy()
                 moved[j] += sign * h
-                ends.append(self._trial(moved, solution, False).tendon_length)
-            columns[:, j] = (ends[0] - ends[1]) / (2 * h)
+                end = self._trial(moved, solution, True)
+                if end.status == 0:
+                    ends.append((moved[j], end.tendon_length))
+            if len(ends) > 1:
+                columns[:, j] = (ends[-1][1] - ends[len(ends) - 2][1]) / (ends[-1][0] - ends[len(ends) - 2][0])
         return columns
 
     def _result(self, solution: _core.Solution, stable: bool | None = None) -> Pulled:
