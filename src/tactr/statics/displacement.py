@@ -28,6 +28,7 @@ MET_SHARE = 0.1  # of the tolerance at the tip may be missing in a displacement
 AIM_SHARE = 0.1  # of what may be missing: where Newton stops
 MOST_STEPS = 40
 SHORTEST = 1e-4  # of a step
+LARGEST = float(np.finfo(float).max)  # m, for a gap that is not known
 CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibility
 
 Trial = Callable[[np.ndarray, "_core.Solution | None", bool], "_core.Solution"]
@@ -61,7 +62,8 @@ class Pulls:
 @dataclass(frozen=True, eq=False)
 class Pulled:
     """What a solve under displacements came to. missed (n,) m; solves: at held tensions; marches: in all of
-    them. stable: whether the shape is with the motors held, None: not looked at."""
+    them. stable: whether the shape is with the motors held, None: not looked at. rested: whether there is a
+    rest state to count from; solution is what was found for it where there is none."""
 
     pulls: Pulls
     solution: _core.Solution
@@ -69,11 +71,12 @@ class Pulled:
     solves: int
     marches: int
     stable: bool | None = None
+    rested: bool = True
 
     @property
     def met(self) -> bool:
         """Whether every displacement is."""
-        return self.solution.status == 0 and bool((self.missed <= self.pulls.tolerance).all())
+        return self.rested and self.solution.status == 0 and bool((self.missed <= self.pulls.tolerance).all())
 
     @property
     def tension(self) -> np.ndarray:
@@ -93,15 +96,12 @@ class Pulled:
         m = len(self.solution.tension)
         taut = self.pulls.index[self.tension > 0.0]
         compliance = self.pulls.compliance[self.tension > 0.0]
-        flexibility = np.diag(compliance) - length_jacobian(prepared, self.solution)[np.ix_(taut, taut)]
+        flexibility = np.diag(compliance) - _core.length_jacobian(prepared, self.solution)[np.ix_(taut, taut)]
         whole = np.zeros((m, m))
         whole[np.ix_(taut, taut)] = np.linalg.pinv(flexibility, rcond=SINGULAR, hermitian=False)
         return whole
 
 
-def length_jacobian(prepared: _core.PreparedRobot, solution: _core.Solution) -> np.ndarray:
-    """d length / d tension at held rotations and translations, (tendons, tendons), m/N."""
-    return _core.length_jacobian(prepared, solution)
 
 
 class DisplacementSolver:
@@ -180,6 +180,8 @@ class DisplacementSolver:
         return self._newton(solution)
 
     def _missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> float:
+        if solution.status != 0:
+            return LARGEST
         gap = self._pulls.gap(solution) + shift
         taut = solution.tension[self._pulls.index] > 0.0
         return float(np.where(taut, np.abs(gap), np.maximum(-gap, 0.0)).max(initial=0.0))
@@ -257,5 +259,5 @@ class DisplacementSolver:
         return columns
 
     def _result(self, solution: _core.Solution, stable: bool | None = None) -> Pulled:
-        missed = self._pulls.missed(solution) if solution.status == 0 else np.full(len(self._pulls.index), np.inf)
+        missed = self._pulls.missed(solution) if solution.status == 0 else np.full(len(self._pulls.index), LARGEST)
         return Pulled(self._pulls, solution, missed, self._solves, self._marches, stable)

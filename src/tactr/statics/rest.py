@@ -22,7 +22,7 @@ class RestState:
         given = [np.nan if tendon.rest_length is None else tendon.rest_length for tendon in tendons]
         self._given = np.array(given, dtype=float)
         self._at: tuple[np.ndarray, np.ndarray] | None = None
-        self._solution: _core.Solution | None = None
+        self.solution: _core.Solution | None = None  # the last
 
     def lengths(self, rotation: np.ndarray, translation: np.ndarray, *, needed: np.ndarray) -> np.ndarray:
         """Rest lengths (tendons,), m; NaN for tendons that are not needed (bool array) where that saves a
@@ -33,14 +33,14 @@ class RestState:
 
     def measured(self, rotation: np.ndarray, translation: np.ndarray) -> np.ndarray:
         """Lengths (tendons,) in the rest state at these rotations and translations, m. Raises NotConverged."""
-        known = self._solution
+        solution = self.solution
         same = self._at is not None and all(map(np.array_equal, self._at, (rotation, translation)))
-        if known is None or not same:
-            known = _core.solve(self._core, self.pretension, rotation, translation, *self._tolerances)
-            if known.status != 0:
-                raise NotConverged("the rest state was not found, the robot without loads and pulled only by pretensions")
-            self._at, self._solution = (rotation.copy(), translation.copy()), known
-        return known.tendon_length
+        if solution is None or not same:
+            solution = _core.solve(self._core, self.pretension, rotation, translation, *self._tolerances)
+            self._at, self.solution = (rotation.copy(), translation.copy()), solution
+        if solution.status != 0:
+            raise NotConverged("the rest state was not found: the robot without loads, pulled only by pretensions")
+        return solution.tendon_length
 
 
 def rest_lengths(robot: Robot, *, tolerance: float = 1e-6) -> dict[str, float]:

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from tactr import _core
-from tactr.errors import RobotError
+from tactr.errors import NotConverged, RobotError
 from tactr.robot import Robot, Tendon, TensionProfile, Tube
 from tactr.robot._consistency import LEAST_REACH
 from tactr.robot.load import Load
 from tactr.robot.robot import Displacements, Numbers, Tensions
 from tactr.statics.assemble import assemble, base_tension
-from tactr.statics.displacement import MET_SHARE, DisplacementSolver, Pulled, Pulls
+from tactr.statics.displacement import LARGEST, MET_SHARE, DisplacementSolver, Pulled, Pulls
 from tactr.statics.rest import RestState
 from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
@@ -222,9 +222,14 @@ class Prepared:
         """Tensions from displacements, NaN for tendons at their tension: from a guess, then from cold."""
         given = ~np.isnan(displacement)
         index, compliance = np.flatnonzero(given), self._compliance[given]
-        rest = self._rest.lengths(*actuated.arrays[1:], needed=given)[given]
-        reference = rest - compliance * self._rest.pretension[given]
-        pulls = Pulls(index, displacement[given], compliance, reference, MET_SHARE * self.tolerance)
+        rest, asked, allowed = self._rest, displacement[given], MET_SHARE * self.tolerance
+        try:
+            lengths = rest.lengths(*actuated.arrays[1:], needed=given)[given]
+        except NotConverged:
+            unknown = Pulls(index, asked, compliance, np.zeros(len(index)), allowed)
+            missed = np.full(len(index), LARGEST)
+            return Pulled(unknown, rest.solution, missed, 0, rest.solution.iterations, rested=False)
+        pulls = Pulls(index, asked, compliance, lengths - compliance * rest.pretension[given], allowed)
         solver = DisplacementSolver(self._core, partial(self._at_tensions, actuated), pulls, actuated.arrays[0])
         near = _start(guess)
         if near is not None and len(near.tension) == len(displacement):

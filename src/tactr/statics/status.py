@@ -63,7 +63,7 @@ def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
             f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m "
             f"at the tip{_remark(status, solution)}"
         )
-    return _FAILURES[status].format(s=solution, tolerance=tolerance)
+    return _FAILURES[status].format(s=solution, tolerance=tolerance) if status in _FAILURES else ""
 
 
 def told_with_pulls(text: str, status: Status, pulled: Pulled, robot: Robot) -> str:
@@ -72,6 +72,8 @@ def told_with_pulls(text: str, status: Status, pulled: Pulled, robot: Robot) -> 
         slack = ", ".join(map(repr, pulled.slack(robot)))
         held = f"displacements met to {float(pulled.missed.max()):.1e} m"
         return f"{text}; {held}, {f'slack: {slack}' if slack else 'no tendon slack'}"
+    if not pulled.rested:
+        return f"the rest state, from which displacements count, was not found: {text}"
     if status is not Status.NOT_MET:
         return f"at the tensions tried for the displacements, {text}"
     worst = int(pulled.missed.argmax())
