@@ -106,13 +106,17 @@ def report(found: list[Outcome], tried: int, wall: float) -> bool:
     print(f"machine: {machine()}, load {os.getloadavg()[0]:.1f}; wall time {wall:.0f} s")
     print(f"{tried} robots, {len(found)} with tendons and an equilibrium at their tensions")
     print(f"converged: {len(good)} of {len(found)} ({100 * len(good) / len(found):.2f} %), cold start")
-    print(f"  at the tip they came from: {sum(o.same for o in good)}; with slack tendons: {sum(o.slack > 0 for o in good)}")
+    print(
+        f"  at the tip they came from: {sum(o.same for o in good)}; "
+        f"with slack tendons: {sum(o.slack > 0 for o in good)}"
+    )
     print(f"worst displacement error of a success: {max(o.worst for o in good):.1e} m")
     times = 1e3 * np.sort([o.seconds for o in good])
     solves = np.median([o.solves for o in good])
     print(
-        f"time of a success: median {np.median(times):.2f} ms, 99 % {np.quantile(times, 0.99):.1f} ms, slowest "
-        f"{times[-1]:.0f} ms; solves at held tensions: median {solves:.0f}, most {max(o.solves for o in good)}"
+        f"time of a success: median {np.median(times):.2f} ms, 99 % {np.quantile(times, 0.99):.1f} ms, "
+        f"slowest {times[-1]:.0f} ms; solves at held tensions: median {solves:.0f}, "
+        f"most {max(o.solves for o in good)}"
     )
     false = [o.seed for o in good if o.false]
     print(f"successes that are none: {len(false)} {false or ''}")

@@ -107,7 +107,9 @@ def test_derivatives_by_displacement():
 
 def test_tied_tendons_keep_their_length_where_the_tubes_turn(robot):
     lengths = tactr.rest_lengths(robot)
-    tied = robot.replace(tendons=[replace(t, rest_length=lengths[t.name], compliance=1e-4) for t in robot.tendons])
+    tied = robot.replace(
+        tendons=[replace(t, rest_length=lengths[t.name], compliance=1e-4) for t in robot.tendons]
+    )
     for angle in (0.8, 2.0):
         shape = tactr.solve(tied, displacement=[1e-3] * 3, rotation={"inner": angle}, loads=[])
         taut = shape.tension > 0.0

@@ -66,7 +66,8 @@ TRIPLE = 2.0 * math.pi / 3.0 * np.arange(3)
 
 @pytest.mark.parametrize("compliance", [0.0, 1e-5, 1e-3])
 @pytest.mark.parametrize(
-    "displacement", [(1e-3, -1e-3), (1e-3, -9e-4), (1e-3, -2e-3), (-1e-3, 3e-3), (0, 0), (1e-3, 1e-3), (2e-3, 0)]
+    "displacement",
+    [(1e-3, -1e-3), (1e-3, -9e-4), (1e-3, -2e-3), (-1e-3, 3e-3), (0, 0), (1e-3, 1e-3), (2e-3, 0)],
 )
 def test_an_antagonistic_pair(displacement, compliance):
     check(PAIR, [compliance] * 2, np.array(displacement, dtype=float))
@@ -119,5 +120,7 @@ def test_many_tendons_without_compliance_are_not_told_apart_but_bend_the_rod_as_
     assert shape.converged, shape.message
     T = shape.tension
     moment = np.array([T @ np.cos(angles), T @ np.sin(angles)]) * R
-    assert moment[0] * R * L / EI == pytest.approx(1e-3, rel=1e-2)  # shortening on the axis is EI / (EA R^2) of it
+    assert moment[0] * R * L / EI == pytest.approx(
+        1e-3, rel=1e-2
+    )  # shortening on the axis is EI / (EA R^2) of it
     assert moment[1] == pytest.approx(0.0, abs=1e-6)

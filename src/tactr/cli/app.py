@@ -34,9 +34,7 @@ def solve(
     """Compute the shape of a robot and report it."""
     from tactr.cli.solve import Request, run_solve
 
-    return run_solve(
-        Request(file, tension, rotation, translation, displacement, tolerance, json, save, plot)
-    )
+    return run_solve(Request(file, tension, rotation, translation, displacement, tolerance, json, save, plot))
 
 
 @app.command

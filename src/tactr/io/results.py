@@ -117,7 +117,11 @@ def _add_tendons(variables: dict[str, Any], shape: Shape) -> None:
         text = "pulled by its motor from the rest state, given or that of its tension"
         variables["tendon_displacement"] = variable("tendon", shape.displacement, "m", text)
     for name, values, text in (
-        ("given", [t.displacement is not None for t in tendons], "1: pulled by its displacement, 0: by its tension"),
+        (
+            "given",
+            [t.displacement is not None for t in tendons],
+            "1: pulled by its displacement, 0: by its tension",
+        ),
         ("slack", [t.slack for t in tendons], "1: pulled by its displacement, and slack"),
     ):
         variables[f"tendon_{name}"] = variable("tendon", np.array(values, dtype=np.int8), "1", text)

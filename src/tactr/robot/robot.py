@@ -100,8 +100,8 @@ class Robot:
         translation: Numbers | None = None,
         displacement: Displacements | None = None,
     ) -> Robot:
-        """A robot with other tensions (N) or displacements (m) of its tendons, rotations (rad) or translations
-        (m) of its tubes.
+        """A robot with other tensions (N) or displacements (m) of its tendons, or other rotations (rad) or
+        translations (m) of its tubes.
 
         Each is a mapping from names to values, which leaves the others as they are, or a sequence of one
         value for every tendon or tube in order. A tendon given a tension is no longer pulled by a

@@ -68,7 +68,7 @@ class Tendon:
     None: none) of its motor, which rides on the proximal end of its tube. Under a displacement d its tension
     T and its length l in the robot obey
 
-        l_rest - l + compliance (T - pretension) = d  where T > 0;  T = 0 (slack) where the left side exceeds d
+        l_rest - l + compliance (T - pretension) = d  where T > 0;  T = 0 (slack) where it exceeds d
 
     compliance: m/N, at least 0, of tendon and transmission in series. pretension: N, at least 0, at d = 0 in
     the rest state: no loads, every tendon of the robot at its pretension. l_rest: rest_length, m, where that
@@ -140,4 +140,6 @@ def plain_displacement(value: object) -> float | None:
 
 def both_given(field: str, value: object) -> RobotError:
     """The error for a tendon that is pulled in two ways."""
-    return RobotError(field, "the tendon has a tension, too", "a tension or a displacement, not both", value=value)
+    return RobotError(
+        field, "the tendon has a tension, too", "a tension or a displacement, not both", value=value
+    )

@@ -1,8 +1,8 @@
 """Statics: from a robot and its actuation to its shape, over the C++ kernel."""
 
 from tactr.statics.contact import Contact, GuideReaction, PointContacts
-from tactr.statics.mechanics import ActuatorForces
 from tactr.statics.follow import Followed, Snap, follow
+from tactr.statics.mechanics import ActuatorForces
 from tactr.statics.rest import rest_lengths
 from tactr.statics.shape import Shape, TendonShape, TipJacobian, TubeShape
 from tactr.statics.solve import Prepared, branches, solve

@@ -49,12 +49,17 @@ class Pulls:
     tolerance: float
 
     def gap(self, solution: _core.Solution) -> np.ndarray:
-        """By how much the motor's displacement falls short of the tendon's, (n,), m; above 0: slack to spare."""
+        """By how much the motor's displacement falls short of the tendon's, (n,), m; above 0: slack."""
         i = self.index
-        return self.reference - solution.tendon_length[i] + self.compliance * solution.tension[i] - self.displacement
+        return (
+            self.reference
+            - solution.tendon_length[i]
+            + self.compliance * solution.tension[i]
+            - self.displacement
+        )
 
     def missed(self, solution: _core.Solution) -> np.ndarray:
-        """What of the gaps is wrong, (n,), m: any where there is tension, a negative one where there is none."""
+        """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one."""
         gap = self.gap(solution)
         return np.where(solution.tension[self.index] > 0.0, np.abs(gap), np.maximum(-gap, 0.0))
 
@@ -102,8 +107,6 @@ class Pulled:
         return whole
 
 
-
-
 class DisplacementSolver:
     """Newton on the tensions of the pulled tendons; trial(tension, guess, stay) solves at held tensions."""
 
@@ -134,9 +137,9 @@ class DisplacementSolver:
         return self._result(best, stable)
 
     def is_stable(self, solution: _core.Solution) -> bool:
-        """Whether a shape is stable with the motors held: as many directions of falling energy at held tensions
-        as negative flexibilities of the taut tendons, each of which a held motor takes away (inertia of the
-        bordered second variation, Haynsworth 1968)."""
+        """Whether a shape is stable with the motors held: as many directions of falling energy at held
+        tensions as negative flexibilities of the taut tendons, each of which a held motor takes away (inertia
+        of the bordered second variation, Haynsworth 1968)."""
         falling = len(_core.stability(self._prepared, solution, 0)[4])
         if falling == 0:
             return True
@@ -255,9 +258,13 @@ class DisplacementSolver:
                 if end.status == 0:
                     ends.append((moved[j], end.tendon_length))
             if len(ends) > 1:
-                columns[:, j] = (ends[-1][1] - ends[len(ends) - 2][1]) / (ends[-1][0] - ends[len(ends) - 2][0])
+                columns[:, j] = (ends[-1][1] - ends[len(ends) - 2][1]) / (
+                    ends[-1][0] - ends[len(ends) - 2][0]
+                )
         return columns
 
     def _result(self, solution: _core.Solution, stable: bool | None = None) -> Pulled:
-        missed = self._pulls.missed(solution) if solution.status == 0 else np.full(len(self._pulls.index), LARGEST)
+        missed = (
+            self._pulls.missed(solution) if solution.status == 0 else np.full(len(self._pulls.index), LARGEST)
+        )
         return Pulled(self._pulls, solution, missed, self._solves, self._marches, stable)

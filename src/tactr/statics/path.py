@@ -50,12 +50,16 @@ def _at(robot: Robot, point: object, k: int) -> Robot:
     for j, tendon in enumerate(moved.tendons):
         if tendon.displacement is not None:
             raise RobotError(
-                f"path[{k}]", f"tendons[{j}] is pulled by a displacement", "tensions: a path is followed at these"
+                f"path[{k}]",
+                f"tendons[{j}] is pulled by a displacement",
+                "tensions: a path is followed at these",
             )
     for own, other in zip(robot.tendons, moved.tendons, strict=True):
         profiled = isinstance(own.tension, TensionProfile) or isinstance(other.tension, TensionProfile)
         if profiled and own.tension != other.tension:
-            raise RobotError(f"path[{k}].tension", f"{own.name!r} has a tension profile", "the profile as it is")
+            raise RobotError(
+                f"path[{k}].tension", f"{own.name!r} has a tension profile", "the profile as it is"
+            )
     return moved
 
 

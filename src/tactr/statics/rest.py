@@ -13,7 +13,9 @@ from tactr.statics.assemble import assemble
 class RestState:
     """The robot without loads, every tendon at its pretension; the state last asked for is remembered."""
 
-    def __init__(self, robot: Robot, prepared: _core.PreparedRobot, tolerance: float, residual_tolerance: float):
+    def __init__(
+        self, robot: Robot, prepared: _core.PreparedRobot, tolerance: float, residual_tolerance: float
+    ):
         self._robot = robot
         self._core = assemble(robot.replace(loads=())) if robot.loads else prepared
         self._tolerances = tolerance, residual_tolerance
@@ -32,14 +34,16 @@ class RestState:
         return np.where(np.isnan(self._given), self.measured(rotation, translation), self._given)
 
     def measured(self, rotation: np.ndarray, translation: np.ndarray) -> np.ndarray:
-        """Lengths (tendons,) in the rest state at these rotations and translations, m. Raises NotConverged."""
+        """Lengths (tendons,) in the rest state at these places of the tubes, m. Raises NotConverged."""
         solution = self.solution
         same = self._at is not None and all(map(np.array_equal, self._at, (rotation, translation)))
         if solution is None or not same:
             solution = _core.solve(self._core, self.pretension, rotation, translation, *self._tolerances)
             self._at, self.solution = (rotation.copy(), translation.copy()), solution
         if solution.status != 0:
-            raise NotConverged("the rest state was not found: the robot without loads, pulled only by pretensions")
+            raise NotConverged(
+                "the rest state was not found: the robot without loads, pulled only by pretensions"
+            )
         return solution.tendon_length
 
 

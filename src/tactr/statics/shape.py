@@ -94,8 +94,8 @@ class Shape(Mechanics):
     """The shape of a robot under given actuation, or why there is none.
 
     Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,
-    discretisation_error, tolerance, solve_time, displacement_error. The geometry raises NotConverged unless converged. World
-    frame: z along the guide, which the robot leaves at s = 0.
+    discretisation_error, tolerance, solve_time, displacement_error. The geometry raises NotConverged unless
+    converged. World frame: z along the guide, which the robot leaves at s = 0.
     """
 
     def __init__(
@@ -184,7 +184,9 @@ class Shape(Mechanics):
         )
         lengths = rest.lengths(rotation, translation, needed=np.ones(len(robot.tendons), dtype=bool))
         compliance = np.array([tendon.compliance for tendon in robot.tendons])
-        pull = lengths - self._solution.tendon_length + compliance * (self._solution.tension - rest.pretension)
+        pull = (
+            lengths - self._solution.tendon_length + compliance * (self._solution.tension - rest.pretension)
+        )
         given = [tendon.displacement for tendon in robot.tendons]
         return np.array([own if asked is None else asked for own, asked in zip(pull, given, strict=True)])
 

@@ -161,7 +161,9 @@ class Prepared:
     def _found(self, actuated: _Actuated, samples: int) -> list[Shape]:
         """All equilibria that a search finds; samples 0: as many as fit the number of unknowns."""
         if actuated.displacement is not None:
-            raise RobotError("displacement", "branches are searched at held tensions", "tensions of all tendons")
+            raise RobotError(
+                "displacement", "branches are searched at held tensions", "tensions of all tendons"
+            )
         start = perf_counter()
         found = _core.branches(self._core, *actuated.arrays, self.tolerance, self.residual_tolerance, samples)
         elapsed = perf_counter() - start
@@ -230,7 +232,9 @@ class Prepared:
             missed = np.full(len(index), LARGEST)
             return Pulled(unknown, rest.solution, missed, 0, rest.solution.iterations, rested=False)
         pulls = Pulls(index, asked, compliance, lengths - compliance * rest.pretension[given], allowed)
-        solver = DisplacementSolver(self._core, partial(self._at_tensions, actuated), pulls, actuated.arrays[0])
+        solver = DisplacementSolver(
+            self._core, partial(self._at_tensions, actuated), pulls, actuated.arrays[0]
+        )
         near = _start(guess)
         if near is not None and len(near.tension) == len(displacement):
             found = solver.from_guess(near)
