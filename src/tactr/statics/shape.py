@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
+from tactr.statics.derivatives import Derivatives
 from tactr.statics.frames import rotation_matrices, turned_about_z
 from tactr.statics.mechanics import Mechanics
 from tactr.statics.stability import Stability, stability_of
@@ -67,18 +68,7 @@ class TendonShape:
         return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm>"
 
 
-class TipJacobian(NamedTuple):
-    """Derivatives of the tip: rows are its position (m), then its small rotation (rad), both in world axes.
-
-    tension (6, tendons), per N; rotation (6, tubes), per rad. A tendon with a TensionProfile counts per unit
-    of a factor on the whole profile.
-    """
-
-    tension: np.ndarray
-    rotation: np.ndarray
-
-
-class Shape(Mechanics):
+class Shape(Mechanics, Derivatives):
     """The shape of a robot under given actuation, or why there is none.
 
     Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,
@@ -158,12 +148,6 @@ class Shape(Mechanics):
     def tip_orientation(self) -> np.ndarray:
         """The same as a rotation matrix, (3, 3)."""
         return rotation_matrices(self.tip_quaternion)
-
-    def tip_jacobian(self) -> TipJacobian:
-        """Exact derivatives of the tip pose with respect to tensions and rotations."""
-        self._require_convergence()
-        columns = _core.tip_jacobian(self._prepared, self._solution)
-        return TipJacobian(*np.split(columns, [len(self._base.tendons)], axis=1))
 
     @cached_property
     def stability(self) -> Stability:
