@@ -78,7 +78,7 @@ def test_two_tubes_snap_where_the_pendulum_folds(size: float) -> None:
 
 
 def test_there_and_back_leaves_a_loop() -> None:
-    """Between the two snaps the shape depends on where it came from: hysteresis, mirrored about 180 degrees."""
+    """Between the two snaps the shape depends on where it came from: a loop about 180 degrees."""
     followed = tactr.follow(pair(2.0), turned(0, 360, 0))
     there, back = (snap.parameter * 360.0 for snap in followed.snaps)
     assert there == pytest.approx(197.7856, abs=0.05)
