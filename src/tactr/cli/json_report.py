@@ -12,8 +12,8 @@ def json_report(shape: Any) -> str:
     """JSON text of a shape, SI units (the ending of a key is its unit), world axes.
 
     Always there: robot (name), converged, status, message, residual (largest scaled equation), iterations,
-    discretisation_error_m, solve_time_s. Where converged: stability (stable, margin: 1 unloaded, 0 at the limit,
-    conjugate_points_m, and warning: a text or null), tip (position_m, quaternion_wxyz), tubes (name,
+    discretisation_error_m, solve_time_s. Where converged: stability (stable, margin: 1 unloaded, 0 at the
+    limit, conjugate_points_m, and warning: a text or null), tip (position_m, quaternion_wxyz), tubes (name,
     length_m, translation_m, rotation_rad, tip_position_m), tendons (name, tube, tension_N, length_m),
     transition_points (s_m, position_m), centreline (s_m, position_m).
     """

@@ -50,7 +50,9 @@ def _at(robot: Robot, point: object, k: int) -> Robot:
     for own, other in zip(robot.tendons, moved.tendons, strict=True):
         profiled = isinstance(own.tension, TensionProfile) or isinstance(other.tension, TensionProfile)
         if profiled and own.tension != other.tension:
-            raise RobotError(f"path[{k}].tension", f"{own.name!r} has a tension profile", "the profile as it is")
+            raise RobotError(
+                f"path[{k}].tension", f"{own.name!r} has a tension profile", "the profile as it is"
+            )
     return moved
 
 
