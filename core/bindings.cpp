@@ -25,23 +25,7 @@ namespace {
 using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-/// The robot's arrays, owned; view() hands them to the kernel.
-struct PreparedRobot {
-    std::vector<tactr::Tube> tubes;
-    std::vector<tactr::TubePiece> pieces;
-    std::vector<tactr::Tendon> tendons;
-    std::vector<tactr::RoutingPiece> routing;
-    std::vector<tactr::TensionPiece> profiles;
-    std::vector<tactr::PointLoad> point_loads;
-    std::vector<tactr::DistributedLoad> distributed_loads;
-
-    tactr::Robot view() const {
-        return {static_cast<int>(tubes.size()),       static_cast<int>(tendons.size()),
-                static_cast<int>(point_loads.size()), static_cast<int>(distributed_loads.size()),
-                tubes.data(),   pieces.data(),   tendons.data(),           routing.data(),
-                profiles.data(), point_loads.data(), distributed_loads.data()};
-    }
-};
+using PreparedRobot = tactr::RobotTables<double>;
 
 void check_columns(const Table& table, size_t columns, const char* name) {
     if (table.shape(1) != columns)
@@ -235,14 +219,43 @@ nb::object vector_of(const double* data, size_t count) {
     return nb::cast(array_of(std::vector<double>(data, data + count), shape));
 }
 
-nb::object tip_jacobian(const PreparedRobot& robot, const tactr::Solution& solution) {
-    tactr::TipJacobian jacobian;
-    const tactr::Robot view = robot.view();
-    if (!tactr::Sensitivity(view, solution).tip(jacobian)) throw std::runtime_error("the solution has no tip Jacobian: it is singular");
-    std::vector<double> data;
-    for (const auto& row : jacobian.rows) data.insert(data.end(), row.begin(), row.end());
-    const size_t shape[2] = {6, static_cast<size_t>(jacobian.columns)};
-    return nb::cast(array_of(std::move(data), shape));
+/// (rows, columns) as tactr::Sensitivities has them.
+nb::object sensitivities(const PreparedRobot& robot, const tactr::Solution& solution, const Vector& stations, bool lengths,
+                         bool actuators, double probe, const std::vector<const PreparedRobot*>& rates) {
+    tactr::SensitivityRequest request;
+    request.stations.assign(stations.data(), stations.data() + stations.shape(0));
+    if (!std::is_sorted(request.stations.begin(), request.stations.end())) throw std::invalid_argument("stations must ascend");
+    request.lengths = lengths;
+    request.actuators = actuators;
+    request.probe = probe;
+    request.rates = rates;
+    for (const PreparedRobot* rate : rates)
+        if (!tactr::same_layout(robot, *rate)) throw std::invalid_argument("rates of another robot");
+    tactr::Sensitivities found;
+    bool regular = false;
+    {
+        nb::gil_scoped_release release;
+        regular = tactr::Sensitivity(robot, solution, request).find(found);
+    }
+    if (!regular) throw std::runtime_error("the solution has no derivatives: it is singular");
+    const size_t shape[2] = {static_cast<size_t>(found.rows), static_cast<size_t>(found.columns)};
+    return nb::cast(array_of(std::move(found.matrix), shape));
+}
+
+/// d(tendon lengths)/d(tensions), (tendons, tendons).
+nb::object length_jacobian(const PreparedRobot& robot, const tactr::Solution& solution) {
+    tactr::SensitivityRequest request;
+    request.lengths = true;
+    tactr::Sensitivities found;
+    if (!tactr::Sensitivity(robot, solution, request).find(found))
+        throw std::runtime_error("the solution has no derivatives: it is singular");
+    const size_t m = robot.tendons.size(), shape[2] = {m, m};
+    std::vector<double> square;
+    for (size_t j = 0; j < m; ++j) {
+        const auto row = found.matrix.begin() + static_cast<long>((6 + j) * found.columns);
+        square.insert(square.end(), row, row + static_cast<long>(m));
+    }
+    return nb::cast(array_of(std::move(square), shape));
 }
 
 /// Per tube: outer neighbours (records,), forces and moments (records, 3); s (records,).
@@ -346,7 +359,9 @@ NB_MODULE(_core, m) {
     m.def("potential_energy", [](const PreparedRobot& robot, const tactr::Solution& s) { return tactr::potential_energy(robot.view(), s); },
           "robot"_a, "solution"_a, "Potential energy, J.");
     m.def("free_end_distance", &free_end_distance, "robot"_a, "a"_a, "b"_a, "Largest turn between two free ends, rad.");
-    m.def("tip_jacobian", &tip_jacobian, "robot"_a, "solution"_a, "d(tip position, tip rotation)/d(tensions, rotations).");
+    m.def("sensitivities", &sensitivities, "robot"_a, "solution"_a, "stations"_a, "lengths"_a, "actuators"_a, "probe"_a, "rates"_a,
+          "Exact derivatives: rows tip, stations, lengths; columns tensions, rotations, translations, wrench, parameters.");
+    m.def("length_jacobian", &length_jacobian, "robot"_a, "solution"_a, "d(tendon lengths)/d(tensions).");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
     m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");

@@ -27,6 +27,7 @@ class BranchFinder {
     /// samples: starts, or points of the grid, at first; 0: chosen by the number of unknowns.
     void search(int samples) {
         if (samples <= 0) samples = default_samples();
+        if (!found.empty() && (n_ > 1 || world_)) start_beside(Solution(found.front()), false);
         start_unloaded();
         for (int round = 0; round < ROUNDS; ++round, samples *= 2) {
             search_once(samples, false);
@@ -36,7 +37,10 @@ class BranchFinder {
 
     /// As search, but only until a stable solution is found.
     bool search_stable() {
-        start_unloaded();
+        work_ = 0;
+        most_work_ = WORK_COLD;
+        if (n_ > 1 || world_) start_beside(Solution(found.empty() ? like_ : found.front()), true);
+        if (!has_stable()) start_unloaded();
         if (!has_stable() && n_ == 2 && !world_) search_once(100, true);
         if (!has_stable()) search_once(default_samples(), true);
         return has_stable();
@@ -49,14 +53,17 @@ class BranchFinder {
 
     /// Newton from one start; what it finds is kept unless it is known already.
     void try_from(FreeEnd<double> start) {
+        if (work_ > most_work_) return;
         Solution trial = fresh();
         trial.free_end = start;
+        work_ += trial.mesh.total();
         double r[MAX_UNKNOWNS];
         Mesh mesh = trial.mesh;
         if (!newton_.plain_residual(start, mesh, r)) return;
         unwind(r, trial.free_end);
-        if (!newton_.newton(trial, ROUGH, NewtonSolver::Kind::rough) || known(trial)) return;
-        if (newton_.polish(trial) && !of_known_family(trial)) keep(trial);
+        const bool met = newton_.newton(trial, ROUGH, NewtonSolver::Kind::rough) && !known(trial) && newton_.polish(trial);
+        work_ += trial.steps_marched;
+        if (met && !of_known_family(trial)) keep(trial);
     }
 
     /// Adds a converged solution, with its stability and energy.
@@ -84,6 +91,7 @@ class BranchFinder {
 
   private:
     static constexpr int ROUNDS = 3, BATCH = 16;
+    static constexpr long WORK = 150000, WORK_COLD = 40000;  // steps marched in all: seconds, and a second at the very most
     static constexpr double ROUGH = 1e-6;      // rad, at the base: enough to tell solutions apart
     static constexpr double SAME = 1e-4;       // rad, at the free end
     static constexpr double FAITHFUL = 0.02;   // rad: how well cubics have to follow a sweep
@@ -94,6 +102,7 @@ class BranchFinder {
     const int n_, tubes_;
     const bool world_;
     int degree_ = 0;
+    long work_ = 0, most_work_ = WORK;
     bool families_ = false;  // found any solution that is not isolated
 
     int default_samples() const {
@@ -157,6 +166,24 @@ class BranchFinder {
         }
     }
 
+    /// Starts on both sides of a solution along the principal directions of its derivatives. They turn and mirror with the
+    /// robot, so that what is found does, too.
+    void start_beside(const Solution& from, bool until_stable) {
+        double V[MAX_UNKNOWNS][MAX_UNKNOWNS];
+        right_singular_vectors(n_, from.jacobian, V);
+        for (double distance : {0.5, 1.0, 1.6, 2.3, 3.1}) {
+            if (until_stable && has_stable()) return;
+            for (int k = 0; k < n_; ++k)
+                for (double side : {distance, -distance}) {
+                    double step[MAX_UNKNOWNS];
+                    for (int i = 0; i < n_; ++i) step[i] = V[i][k];
+                    FreeEnd<double> start;
+                    newton_.shooting.move(from.free_end, step, side, start);
+                    try_from(start);
+                }
+        }
+    }
+
     /// With loads in world axes and several tubes: starts from all solutions without external loads, of which there are
     /// fewer unknowns, turned upright.
     void start_unloaded() {
@@ -170,7 +197,9 @@ class BranchFinder {
         newton.start_straight(like);
         newton.choose_mesh(like);
         BranchFinder finder(newton, like);
+        finder.most_work_ = most_work_ / 4;
         finder.search(0);
+        work_ += finder.work_;
         for (const Solution& solution : finder.found) {
             Solution trial = fresh();
             for (int i = 0; i < tubes_; ++i)
@@ -258,6 +287,8 @@ class BranchFinder {
         for (int p = 0; p < total; ++p) {
             FreeEnd<double> end = like_.free_end;
             for (int i = 0, rest = p; i < n_; ++i, rest /= g) end.psi[1 + i] = like_.free_end.psi[0] + FULL_TURN * (rest % g) / g;
+            if (work_ > most_work_) return;
+            work_ += like_.mesh.total();
             Mesh mesh = like_.mesh;
             mesh.warm = false;
             double r[MAX_UNKNOWNS];
@@ -329,6 +360,8 @@ class BranchFinder {
     }
 };
 
+constexpr long MOST_OF_ONE_START = 2000;  // steps marched: a start that needs more is better left for the next
+
 /// After a cold start: keeps a stable solution; in place of an unstable one takes the stable one of least energy.
 inline void settle(const NewtonSolver& cold, Solution& solution) {
     if (cold.shooting.unknowns == 0) {
@@ -345,6 +378,7 @@ inline void settle(const NewtonSolver& cold, Solution& solution) {
     solution.stability = StabilityFound::unstable;
     Settings settings = cold.settings;
     settings.max_iterations = 25;
+    settings.max_steps = MOST_OF_ONE_START;
     NewtonSolver newton(cold.robot, cold.actuation, settings);
     const Solution first = solution;
     BranchFinder finder(newton, first);

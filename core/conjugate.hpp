@@ -1,7 +1,7 @@
 // Conjugate points of a Jacobi field, counted with their multiplicity.
 //
 // D(s) holds the derivatives of what would be clamped if the robot were cut at s (angles of the tubes, orientation of
-// the cross-section) with respect to the free-end unknowns; D = I at the tip. By Morse's index theorem the second
+// the cross-section) with respect to the free-end unknowns; it is regular at the tip. By Morse's index theorem the second
 // variation of the energy has as many negative directions as D(s) loses ranks between tip and base: the spaces of
 // variations that vanish below s grow as s goes to the base. Roots of det D are not safe to count by its sign: a
 // straight rod under axial load has det D = cos^2, two roots at once.
@@ -16,7 +16,7 @@
 // C is symmetric and positive. C S is similar to C^1/2 S C^1/2, so its eigenvalues are real with the signs of those of
 // S (Sylvester), and by the additivity of inertia under condensation the index is the sum over all pieces of the number
 // of negative eigenvalues of T. Where a quantity does not move in a piece (a tube clamped already, R_b in the guide), T
-// is the identity on it. No momenta are needed, and double roots count twice. Terms of the order of the strains make T
+// is the identity on it. D has to be read in coordinates that do not change along s. No momenta are needed, and double roots count twice. Terms of the order of the strains make T
 // slightly unsymmetric: a double eigenvalue may become a complex pair, hence real parts are counted.
 #pragma once
 #include <cmath>

@@ -98,4 +98,34 @@ inline int eigenvalues_left(int n, double (&A)[N][N]) {
     return count > 0.0 ? (count < n ? static_cast<int>(count) : n) : 0;
 }
 
+/// Right singular vectors of A, as the columns of V: the eigenvectors of its Gram matrix by Jacobi's cyclic rotations.
+template <int N>
+inline void right_singular_vectors(int n, const double (&A)[N][N], double (&V)[N][N]) {
+    double S[N][N];
+    for (int r = 0; r < n; ++r)
+        for (int c = 0; c < n; ++c) {
+            S[r][c] = 0.0;
+            for (int k = 0; k < n; ++k) S[r][c] += A[k][r] * A[k][c];
+            V[r][c] = r == c;
+        }
+    for (int sweep = 0; sweep < 12; ++sweep)
+        for (int p = 0; p < n; ++p)
+            for (int q = p + 1; q < n; ++q) {
+                const double angle = 0.5 * std::atan2(2.0 * S[p][q], S[q][q] - S[p][p]);
+                const double c = std::cos(angle), s = std::sin(angle);
+                for (int k = 0; k < n; ++k) {
+                    const double a = S[k][p], b = S[k][q], v = V[k][p], w = V[k][q];
+                    S[k][p] = c * a - s * b;
+                    S[k][q] = s * a + c * b;
+                    V[k][p] = c * v - s * w;
+                    V[k][q] = s * v + c * w;
+                }
+                for (int k = 0; k < n; ++k) {
+                    const double a = S[p][k], b = S[q][k];
+                    S[p][k] = c * a - s * b;
+                    S[q][k] = s * a + c * b;
+                }
+            }
+}
+
 }  // namespace tactr

@@ -5,14 +5,14 @@
 
 namespace tactr {
 
-template <class T>
+template <class T, class P = double>
 class DenseOutput {
   public:
     Strains strains;  // of the section, near the last point solved
 
     /// Four more stages of the step that the march has just made from before at s. False: a section had no equilibrium.
     template <class M>
-    bool prepare(M& march, const Section<double>& section, const T* before, double s, double h) {
+    bool prepare(M& march, const Section<P>& section, const T* before, const P& s, const P& h) {
         count_ = march.packing.count;
         before_ = before;
         strains = nearest(march, section);
@@ -33,10 +33,10 @@ class DenseOutput {
     }
 
     /// The packed states at the fraction x of the step.
-    void at(double x, T* packed) const {
+    void at(const P& x, T* packed) const {
         for (int n = 0; n < count_; ++n) {
             T sum(0.0);
-            for (int t = dp8::DENSE_TERMS - 1; t >= 0; --t) sum = (sum + coefficient_[t][n]) * (t % 2 == 0 ? x : 1.0 - x);
+            for (int t = dp8::DENSE_TERMS - 1; t >= 0; --t) sum = (sum + coefficient_[t][n]) * (t % 2 == 0 ? x : P(1.0 - x));
             packed[n] = before_[n] + sum;
         }
     }
@@ -55,7 +55,7 @@ class DenseOutput {
     }
 
     template <class M>
-    static Strains nearest(const M& march, const Section<double>& section) {
+    static Strains nearest(const M& march, const Section<P>& section) {
         const auto& from = march.solver.strains;
         Strains e{};
         if (!section.guided) {

@@ -63,6 +63,14 @@ template <int K> inline Dual<K> operator/(Dual<K> a, double b) { a *= 1.0 / b; r
 inline double larger(double a, double b) { return a < b ? b : a; }
 inline double smaller(double a, double b) { return b < a ? b : a; }
 
+/// Whether two numbers move together.
+inline bool same_derivatives(double, double) { return true; }
+template <int K> inline bool same_derivatives(const Dual<K>& a, const Dual<K>& b) {
+    for (int k = 0; k < K; ++k)
+        if (std::fabs(a.d[k] - b.d[k]) > 1e-9 * (1.0 + std::fabs(a.d[k]))) return false;
+    return true;
+}
+
 inline double value(double x) { return x; }
 template <int K> inline double value(const Dual<K>& x) { return x.v; }
 

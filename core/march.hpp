@@ -40,27 +40,30 @@ struct SparseRow {
     }
 };
 
-template <class T, class P>
+template <class T, class P, class C = double>
 class March {
   public:
     static constexpr int LANES = LaneCount<T>::value;
     static constexpr int MAX_STEPS = 512;  // per section
 
-    const Robot& robot;
+    const RobotOf<C>& robot;
     const Layout<P>& layout;
     const Actuation<P>& actuation;
     MarchOptions options;
-    SectionSolver<T, P> solver;
+    SectionSolver<T, P, C> solver;
 
     const double* error_weight = nullptr;  // turns an error of a state into metres at the tip
     int error_lane = -1;                   // lane that carries the estimated discretisation error to the base
     double adapt_tolerance = 0.0;          // > 0: more steps in a section until its error is below
+    int probe_section = -1, probe_lane = 0;  // lanes from probe_lane: a unit wrench in world axes at that section's end
+    bool lengths_move = false;             // the tendons' lengths with their derivatives too
     int slope_lanes = 0;                   // > 0: lanes 0.. are the unknowns, keep the strains' slopes in the mesh
 
     // Results
     BaseState<T> base;
     std::vector<double> section_error;  // per section, metres at the tip
     std::vector<double> tendon_length;  // per tendon, when options.path
+    std::vector<T> moving_length;       // the same, when lengths_move
 
     // The step under way, for observers.
     T y[STATES];                             // all states between sections
@@ -68,7 +71,7 @@ class March {
     T k[dp8::DENSE_STAGES][STATES];          // packed rates at the stages
     Packing packing;
 
-    March(const Robot& robot_, const Layout<P>& layout_, const Actuation<P>& actuation_, MarchOptions options_)
+    March(const RobotOf<C>& robot_, const Layout<P>& layout_, const Actuation<P>& actuation_, MarchOptions options_)
         : robot(robot_), layout(layout_), actuation(actuation_), options(options_), solver(robot_, layout_, actuation_) {}
 
     /// Runs from the tip to the base. False: a section had no equilibrium.
@@ -120,6 +123,7 @@ class March {
         solver.begin();
         section_error.assign(sections, 0.0);
         if (options.path) tendon_length.assign(robot.tendon_count, 0.0);
+        if (lengths_move) moving_length.assign(robot.tendon_count, T(0.0));
     }
 
     void pack(const Section<P>& section) {
@@ -147,6 +151,8 @@ class March {
         if (beyond && !change_hosts(section, *beyond)) return false;
         last_ = nearest;
         apply_point_loads(section);
+        if constexpr (LANES > 0)
+            if (k_section == probe_section) apply_probe(section);
         return take_terminations(section, beyond);
     }
 
@@ -318,7 +324,7 @@ class March {
     }
 
     /// A load given in world or body axes, in R_b; q: R_b, psi: angle of the loaded tube.
-    void load_in_frame(const double v[3], bool body_axes, const T* q, const T& psi, T out[3]) const {
+    void load_in_frame(const C v[3], bool body_axes, const T* q, const T& psi, T out[3]) const {
         if (!body_axes) {
             to_frame(q, v, out);
         } else {
@@ -333,7 +339,7 @@ class March {
 
     void apply_point_loads(const Section<P>& section) {
         for (int p = section.point_loads.begin; p < section.point_loads.end; ++p) {
-            const PointLoad& load = robot.point_loads[layout.point_loads[p].load];
+            const PointLoadOf<C>& load = robot.point_loads[layout.point_loads[p].load];
             T force[3], moment[3];
             load_in_frame(load.force, load.body_axes, &y[QUAT], y[PSI + load.tube], force);
             load_in_frame(load.moment, load.body_axes, &y[QUAT], y[PSI + load.tube], moment);
@@ -344,6 +350,26 @@ class March {
             y[N3 + load.tube] += force[2];
             y[M3 + load.tube] += moment[2];
         }
+    }
+
+    /// Unit forces and moments along the world axes, as rates only; borne by the innermost tube.
+    void apply_probe(const Section<P>& section) {
+        const int tube = section.active[section.active_count - 1];
+        const double q[4] = {value(y[QUAT]), value(y[QUAT + 1]), value(y[QUAT + 2]), value(y[QUAT + 3])};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double unit[3] = {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+            double v[3];
+            to_frame(q, unit, v);
+            add_probe(probe_lane + axis, y[SUM_N], y[SUM_N + 1], y[N3 + tube], v);
+            add_probe(probe_lane + 3 + axis, y[SUM_M], y[SUM_M + 1], y[M3 + tube], v);
+        }
+    }
+
+    static void add_probe(int lane, T& x, T& y, T& z, const double* v) {
+        if (lane < 0 || lane >= LANES) return;
+        x.d[lane] += v[0];
+        y.d[lane] += v[1];
+        z.d[lane] += v[2];
     }
 
     void leave_section(int k_section) {
@@ -371,7 +397,7 @@ class March {
             const size_t stage = first_stage + static_cast<size_t>(steps - 1 - step) * dp8::STAGES;
             if (!run_stages(section, k_section, s, h, before, mesh, stage, warm, observer)) return false;
             advance(h, before, section_error[k_section]);
-            if constexpr (!std::is_same_v<Observer, NoObserver>) observer(*this, k_section, before, value(s), value(h));
+            if constexpr (!std::is_same_v<Observer, NoObserver>) observer(*this, k_section, before, s, h);
         }
         return true;
     }
@@ -411,6 +437,7 @@ class March {
             }
             if (!derivative(section, s + h * dp8::C[i], z, k[i], e)) return false;
             if (options.path) add_lengths(section, -value(h) * dp8::B[i]);
+            if (lengths_move) add_moving_lengths(section, h * -dp8::B[i]);
             if constexpr (SeesStages<Observer>::value)
                 observer.stage(*this, section, k_section, value(s + h * dp8::C[i]), -value(h) * dp8::B[i]);
             if constexpr (LANES > 0)
@@ -498,6 +525,15 @@ class March {
             tendon_length[layout.hosted[h].tendon] += weight / solver.tendon_tangents[h - section.hosted.begin].inverse;
     }
 
+    void add_moving_lengths(const Section<P>& section, const P& weight) {
+        for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
+            const TendonState<P>& tendon = solver.tendons[h - section.hosted.begin];
+            T n[3] = {T(0.0), T(0.0), T(0.0)}, m[3] = {T(0.0), T(0.0), T(0.0)}, inverse, t[3], r[2];
+            add_tendon(tendon, solver.cosine[tendon.slot], solver.sine[tendon.slot], solver.strains, n, m, inverse, t, r);
+            moving_length[layout.hosted[h].tendon] += T(weight) / inverse;
+        }
+    }
+
     void shift_strains(const Section<P>& section, const Mesh& mesh, size_t stage, Strains& e) const {
         const double* slope = &mesh.slopes[stage * STRAINS * mesh.unknowns];
         const auto shifted = [&](double& strain) {
@@ -580,7 +616,7 @@ class March {
     void apply_distributed_loads(const Section<P>& section, const T* state, T* rate) const {
         for (int d = section.distributed_loads.begin; d < section.distributed_loads.end; ++d) {
             const SectionLoad& placed = layout.distributed_loads[d];
-            const DistributedLoad& load = robot.distributed_loads[placed.load];
+            const DistributedLoadOf<C>& load = robot.distributed_loads[placed.load];
             const int a = placed.slot;
             T force[3], moment[3];
             load_in_frame(load.force, load.body_axes, state + packing.frame, state[3 * a], force);

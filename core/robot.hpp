@@ -1,4 +1,5 @@
-// The robot as plain arrays: what the kernel knows of tubes, tendons and loads. SI units.
+// The robot as plain arrays: what the kernel knows of tubes, tendons and loads. SI units. C is double, or a dual number
+// where derivatives with respect to the robot's own parameters are wanted.
 #pragma once
 
 namespace tactr {
@@ -13,67 +14,83 @@ constexpr int MAX_TUBE_COEFFICIENTS = 8;
 enum TubeQuantity { EIX, EIY, GJ, EA, GA, USTAR, VSTAR = USTAR + 3, AXIS = VSTAR + 3, QUANTITIES = AXIS + 2 };
 
 /// One stretch of a tube: its quantities as polynomials in sigma - start, ascending powers.
-struct TubePiece {
-    double start;  // arc length sigma of the tube where the piece begins
+template <class C>
+struct TubePieceOf {
+    C start;  // arc length sigma of the tube where the piece begins
     int count;     // of coefficients; 1: constant
     int plain;     // 1: v* = e3, and the neutral axis on the centreline
-    double c[MAX_TUBE_COEFFICIENTS][QUANTITIES];
+    C c[MAX_TUBE_COEFFICIENTS][QUANTITIES];
 };
+using TubePiece = TubePieceOf<double>;
 
 /// Tube i, outermost first; its pieces are pieces[piece_begin..piece_end).
-struct Tube {
-    double length;
+template <class C>
+struct TubeOf {
+    C length;
     double weight_per_gravity;  // linear density, kg/m
     int piece_begin, piece_end;
 };
+using Tube = TubeOf<double>;
 
 /// Tendon position in the host's cross-section on [start, end] of its own tube's arc length sigma, by
 /// polynomials in sigma - start: (x, y), or (radius, angle) when polar.
-struct RoutingPiece {
-    double start, end;
+template <class C>
+struct RoutingPieceOf {
+    C start, end;
     int polar, count_a, count_b;
-    double a[MAX_COEFFICIENTS], b[MAX_COEFFICIENTS];
+    C a[MAX_COEFFICIENTS], b[MAX_COEFFICIENTS];
 };
+using RoutingPiece = RoutingPieceOf<double>;
 
 /// Tension along a tendon, relative to its input tension, by a polynomial in sigma - start.
-struct TensionPiece {
-    double start;
+template <class C>
+struct TensionPieceOf {
+    C start;
     int count;
-    double c[4];
+    C c[4];
 };
+using TensionPiece = TensionPieceOf<double>;
 
-struct Tendon {
+template <class C>
+struct TendonOf {
     int tube;       // the tube on which it ends
     int outermost;  // 1: hosted by the outermost tube present (approach A), 0: by its own tube (approach B)
-    double end;     // sigma of its termination
+    C end;     // sigma of its termination
     int piece_begin, piece_end;
     int profile_begin, profile_end;  // empty: constant tension
 };
+using Tendon = TendonOf<double>;
 
-struct PointLoad {
+template <class C>
+struct PointLoadOf {
     int tube;
     int body_axes;
-    double at;  // sigma
-    double force[3], moment[3];
+    C at;  // sigma
+    C force[3], moment[3];
 };
+using PointLoad = PointLoadOf<double>;
 
-struct DistributedLoad {
+template <class C>
+struct DistributedLoadOf {
     int tube;  // -1: the outermost tube present, start and end are then s from the guide exit
     int body_axes;
-    double start, end;
-    double force[3], moment[3];  // per metre
+    C start, end;
+    C force[3], moment[3];  // per metre
 };
+using DistributedLoad = DistributedLoadOf<double>;
 
-struct Robot {
+template <class C>
+struct RobotOf {
     int tube_count, tendon_count, point_load_count, distributed_load_count;
-    const Tube* tubes;
-    const TubePiece* pieces;
-    const Tendon* tendons;
-    const RoutingPiece* routing;
-    const TensionPiece* profiles;
-    const PointLoad* point_loads;
-    const DistributedLoad* distributed_loads;
+    const TubeOf<C>* tubes;
+    const TubePieceOf<C>* pieces;
+    const TendonOf<C>* tendons;
+    const RoutingPieceOf<C>* routing;
+    const TensionPieceOf<C>* profiles;
+    const PointLoadOf<C>* point_loads;
+    const DistributedLoadOf<C>* distributed_loads;
 };
+using Robot = RobotOf<double>;
 
 /// Actuation: what changes from solve to solve. P is double, or a dual number for sensitivities.
 template <class P>

@@ -5,8 +5,8 @@
 namespace tactr {
 
 /// v in the axes of the frame with quaternion q (q of unit length), from world axes.
-template <class T>
-inline void to_frame(const T* q, const double v[3], T out[3]) {
+template <class T, class V>
+inline void to_frame(const T* q, const V v[3], T out[3]) {
     const T& w = q[0];
     const T tx = (q[2] * v[2] - q[3] * v[1]) * 2.0, ty = (q[3] * v[0] - q[1] * v[2]) * 2.0,
             tz = (q[1] * v[1] - q[2] * v[0]) * 2.0;

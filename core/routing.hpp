@@ -5,8 +5,8 @@
 
 namespace tactr {
 
-template <class P>
-inline void evaluate_polynomial(const double* c, int count, const P& d, P& f, P& df) {
+template <class P, class C>
+inline void evaluate_polynomial(const C* c, int count, const P& d, P& f, P& df) {
     f = P(c[count - 1]);
     df = P(0.0);
     for (int i = count - 2; i >= 0; --i) {
@@ -15,8 +15,8 @@ inline void evaluate_polynomial(const double* c, int count, const P& d, P& f, P&
     }
 }
 
-template <class P>
-inline void evaluate_routing(const RoutingPiece& piece, const P& sigma, P r[2], P dr[2]) {
+template <class P, class C>
+inline void evaluate_routing(const RoutingPieceOf<C>& piece, const P& sigma, P r[2], P dr[2]) {
     const P d = sigma - piece.start;
     P a, da, b, db;
     evaluate_polynomial(piece.a, piece.count_a, d, a, da);

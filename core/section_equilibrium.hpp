@@ -43,8 +43,8 @@ struct TendonState {
 
 /// Elastic resultants of one tube, in R_b, at the given strains; c, s: cosine and sine of psi_i. An axial force acts
 /// at the neutral axis r = (x, y, 0): N_3 = EA ((v - v*) + (u - u*) x r)_3, and r x N_3 e3 adds to the moment.
-template <class T, class C>
-inline void elastic_wrench(const TubeState<C>& tube, const T& c, const T& s, const Strains& e, int slot, T N[3], T M[3]) {
+template <class T, class A, class C>
+inline void elastic_wrench(const TubeState<C>& tube, const A& c, const A& s, const Strains& e, int slot, T N[3], T M[3]) {
     const double stretch = 1.0 + e.eta[slot];
     const T ux = c * e.kx + s * e.ky - tube.ustar[0];
     const T uy = c * e.ky - s * e.kx - tube.ustar[1];
@@ -74,8 +74,8 @@ struct TendonTangent {
 };
 
 /// Adds lambda t and lambda r x t of one tendon to its host's resultants, in R_b.
-template <class T, class P, class E>
-inline void add_tendon(const TendonState<P>& tendon, const T& c, const T& s, const StrainsOf<E>& e, T N[3], T M[3],
+template <class T, class A, class P, class E>
+inline void add_tendon(const TendonState<P>& tendon, const A& c, const A& s, const StrainsOf<E>& e, T N[3], T M[3],
                        T& inverse, T direction[3], T r[2]) {
     const int i = tendon.slot;
     const E stretch = 1.0 + e.eta[i];

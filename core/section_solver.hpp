@@ -17,7 +17,8 @@ namespace tactr {
 /// beyond, which keeps the march smooth in its unknowns. checked: to tolerance.
 enum class Precision { rough, checked, full };
 
-template <class T, class P>
+/// T: states, P: actuation, C: the robot's own constants; each double or a dual number.
+template <class T, class P, class C = double>
 class SectionSolver {
   public:
     static constexpr int LANES = LaneCount<T>::value;
@@ -37,7 +38,7 @@ class SectionSolver {
     std::vector<TendonState<P>> tendons;
     std::vector<TendonTangent> tendon_tangents;
 
-    SectionSolver(const Robot& robot, const Layout<P>& layout, const Actuation<P>& actuation)
+    SectionSolver(const RobotOf<C>& robot, const Layout<P>& layout, const Actuation<P>& actuation)
         : robot_(robot), layout_(layout), actuation_(actuation) {
         tendons.resize(layout.max_hosted + 1);
         tendon_tangents.resize(layout.max_hosted + 1);
@@ -69,7 +70,7 @@ class SectionSolver {
             evaluate_routing(robot_.routing[hosted.routing], sigma, state.r, state.dr);
             state.tension = actuation_.tension[hosted.tendon] * actuation_.shape_scale;
             if (hosted.profile >= 0) {
-                const TensionPiece& piece = robot_.profiles[hosted.profile];
+                const TensionPieceOf<C>& piece = robot_.profiles[hosted.profile];
                 P factor, slope;
                 evaluate_polynomial(piece.c, piece.count, P(sigma - piece.start), factor, slope);
                 state.tension = state.tension * factor;
@@ -86,13 +87,14 @@ class SectionSolver {
     static constexpr double LINEAR_ENOUGH = LANES == 0 ? 0.1 : 1e-2, CLOSE_ENOUGH = 1e-5;
     static constexpr double SAME_TANGENT = 1e-5;  // a step from so small a residual does not change the tangent
 
-    const Robot& robot_;
+    const RobotOf<C>& robot_;
     const Layout<P>& layout_;
     const Actuation<P>& actuation_;
     double pull_ = 0.0, pull_moment_ = 0.0;  // tensions, and with their offsets, of all tendons here
     const Section<P>* section_ = nullptr;  // whose constant tubes are in place
     int varying_[MAX_TUBES], varying_count_ = 0;  // slots of the tubes that vary along the section
-    TubeState<P> exact_[MAX_TUBES];  // those tubes with the derivatives of their sigma
+    TubeState<P> exact_[MAX_TUBES];  // where P carries derivatives
+    bool moves_[MAX_TUBES];          // whether a tube's has any
     double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
     TubeTangent tangent_[MAX_TUBES];
     TubeRows rows_[MAX_TUBES];
@@ -102,10 +104,7 @@ class SectionSolver {
         if (section_ != &section) enter(section);
         for (int k = 0; k < varying_count_; ++k) {
             const int a = varying_[k];
-            const TubePiece& piece = robot_.pieces[section.piece[a]];
-            const P sigma = s - actuation_.translation[section.active[a]];
-            tubes[a] = tube_at(piece, value(sigma), actuation_.shape_scale);
-            if constexpr (!std::is_same_v<P, double>) exact_[a] = tube_at(piece, sigma, actuation_.shape_scale);
+            place_tube(section, a, s - actuation_.translation[section.active[a]]);
         }
     }
 
@@ -113,9 +112,20 @@ class SectionSolver {
         section_ = &section;
         varying_count_ = 0;
         for (int a = 0; a < section.active_count; ++a) {
-            const TubePiece& piece = robot_.pieces[section.piece[a]];
+            const TubePieceOf<C>& piece = robot_.pieces[section.piece[a]];
             if (piece.count > 1) varying_[varying_count_++] = a;
-            tubes[a] = tube_at(piece, piece.start, actuation_.shape_scale);
+            place_tube(section, a, P(piece.start));
+        }
+    }
+
+    void place_tube(const Section<P>& section, int a, const P& sigma) {
+        const TubePieceOf<C>& piece = robot_.pieces[section.piece[a]];
+        if constexpr (std::is_same_v<P, double>) {
+            tubes[a] = tube_at(piece, sigma, actuation_.shape_scale);
+        } else {
+            exact_[a] = tube_at(piece, sigma, actuation_.shape_scale);
+            moves_[a] = !std::is_same_v<C, double> || piece.count > 1;
+            tubes[a] = values_of(exact_[a]);
         }
     }
 
@@ -316,11 +326,8 @@ class SectionSolver {
                 }
         } else {
             WrenchLanes fixed[MAX_TUBES];
-            if constexpr (std::is_same_v<P, double>) {
-                lanes_of_turning(section, z, e, fixed);
-            } else {
-                lanes_of_everything(section, e, fixed);
-            }
+            lanes_of_turning(section, z, e, fixed);
+            if constexpr (!std::is_same_v<P, double>) add_lanes_of_parameters(section, e, fixed);
             double total[4][WIDTH], tube[MAX_TUBES][2][WIDTH];
             strain_lanes(section, z, packing, fixed, total, tube);
             write_strains(section, e, total, tube);
@@ -384,7 +391,7 @@ class SectionSolver {
         for (int l = 0; l < WIDTH; ++l) out.d[l] = rate[l];
     }
 
-    /// With plain parameters and strains held fixed in R_b, only psi moves N and M. They turn with the tube:
+    /// With parameters and strains held fixed in R_b, only psi moves N and M. They turn with the tube:
     /// d(N, M)/dpsi = e3 x (N, M) - K (e3 x (v, u)).
     void lanes_of_turning(const Section<P>& section, const T* z, const Strains& e, WrenchLanes* fixed) const {
         for (int a = 0; a < section.active_count; ++a) {
@@ -403,28 +410,28 @@ class SectionSolver {
         }
     }
 
-    /// With parameters that carry derivatives too: N and M evaluated in dual numbers at fixed strains.
-    void lanes_of_everything(const Section<P>& section, const Strains& e, WrenchLanes* fixed) const {
-        T n[MAX_TUBES][3], m[MAX_TUBES][3];
+    /// With strains and psi held fixed, N and M move with the parameters.
+    void add_lanes_of_parameters(const Section<P>& section, const Strains& e, WrenchLanes* fixed) const {
         for (int a = 0; a < section.active_count; ++a) {
-            if (std::is_same_v<P, double> || robot_.pieces[section.piece[a]].count == 1) {
-                elastic_wrench(tubes[a], cosine[a], sine[a], e, a, n[a], m[a]);
-            } else {
-                elastic_wrench(exact_[a], cosine[a], sine[a], e, a, n[a], m[a]);
-            }
+            if (!moves_[a]) continue;
+            P n[3], m[3];
+            elastic_wrench(exact_[a], value(cosine[a]), value(sine[a]), e, a, n, m);
+            add_lanes(n, m, fixed[a]);
         }
-        const int count = section.hosted.end - section.hosted.begin;
-        for (int h = 0; h < count; ++h) {
+        for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
             const int a = tendons[h].slot;
-            T inverse, t[3], r[2];
-            add_tendon(tendons[h], cosine[a], sine[a], e, n[a], m[a], inverse, t, r);
+            P n[3] = {P(0.0), P(0.0), P(0.0)}, m[3] = {P(0.0), P(0.0), P(0.0)}, inverse, t[3], r[2];
+            add_tendon(tendons[h], value(cosine[a]), value(sine[a]), e, n, m, inverse, t, r);
+            add_lanes(n, m, fixed[a]);
         }
-        for (int a = 0; a < section.active_count; ++a)
-            for (int r = 0; r < 3; ++r)
-                for (int l = 0; l < WIDTH; ++l) {
-                    fixed[a][r][l] = n[a][r].d[l];
-                    fixed[a][3 + r][l] = m[a][r].d[l];
-                }
+    }
+
+    static void add_lanes(const P (&n)[3], const P (&m)[3], WrenchLanes& fixed) {
+        for (int r = 0; r < 3; ++r)
+            for (int l = 0; l < WIDTH; ++l) {
+                fixed[r][l] += n[r].d[l];
+                fixed[3 + r][l] += m[r].d[l];
+            }
     }
 };
 

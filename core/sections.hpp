@@ -1,6 +1,7 @@
 // Cuts the robot into sections between sorted breakpoints: inside a section everything is smooth.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "dual.hpp"
@@ -46,60 +47,6 @@ struct Layout {
 
 constexpr double BREAKPOINT_GAP = 1e-12;  // m; breakpoints closer than this are one
 
-/// Last index in [begin, end) whose start is not beyond sigma.
-template <class Piece>
-inline int piece_at(const Piece* pieces, int begin, int end, double sigma) {
-    int found = begin;
-    for (int i = begin + 1; i < end; ++i)
-        if (pieces[i].start <= sigma) found = i;
-    return found;
-}
-
-template <class P>
-std::vector<P> breakpoints(const Robot& robot, const P* translation) {
-    std::vector<P> all;
-    all.reserve(32);
-    all.push_back(P(0.0));
-    for (int i = 0; i < robot.tube_count; ++i) {
-        const Tube& tube = robot.tubes[i];
-        all.push_back(translation[i]);
-        all.push_back(translation[i] + tube.length);
-        for (int k = tube.piece_begin + 1; k < tube.piece_end; ++k)
-            all.push_back(translation[i] + robot.pieces[k].start);
-    }
-    for (int j = 0; j < robot.tendon_count; ++j) {
-        const Tendon& tendon = robot.tendons[j];
-        const P& base = translation[tendon.tube];
-        all.push_back(base + tendon.end);
-        for (int k = tendon.piece_begin + 1; k < tendon.piece_end; ++k)
-            if (robot.routing[k].start < tendon.end) all.push_back(base + robot.routing[k].start);
-        for (int k = tendon.profile_begin + 1; k < tendon.profile_end; ++k)
-            if (robot.profiles[k].start < tendon.end) all.push_back(base + robot.profiles[k].start);
-    }
-    for (int l = 0; l < robot.point_load_count; ++l)
-        all.push_back(translation[robot.point_loads[l].tube] + robot.point_loads[l].at);
-    for (int l = 0; l < robot.distributed_load_count; ++l) {
-        const DistributedLoad& load = robot.distributed_loads[l];
-        const P base = load.tube < 0 ? P(0.0) : translation[load.tube];
-        all.push_back(base + load.start);
-        all.push_back(base + load.end);
-    }
-    std::sort(all.begin(), all.end(), [](const P& a, const P& b) { return value(a) < value(b); });
-    return all;
-}
-
-template <class P>
-void place_tubes(const Robot& robot, const P* translation, double middle, Section<P>& section) {
-    section.active_count = 0;
-    for (int i = 0; i < robot.tube_count; ++i) {
-        const Tube& tube = robot.tubes[i];
-        const double sigma = middle - value(translation[i]);
-        if (sigma <= 0.0 || sigma >= tube.length) continue;
-        section.active[section.active_count] = i;
-        section.piece[section.active_count++] = piece_at(robot.pieces, tube.piece_begin, tube.piece_end, sigma);
-    }
-}
-
 template <class P>
 int slot_of(const Section<P>& section, int tube) {
     for (int a = 0; a < section.active_count; ++a)
@@ -107,75 +54,180 @@ int slot_of(const Section<P>& section, int tube) {
     return -1;
 }
 
+/// Sorted breakpoints, those at one place as one; but where two at one place move apart they stay two, and between them
+/// lies a section of no length, which counts in the derivatives.
 template <class P>
-void place_tendons(const Robot& robot, const P* translation, double middle, Section<P>& section, Layout<P>& layout) {
-    section.hosted.begin = static_cast<int>(layout.hosted.size());
-    for (int j = 0; j < robot.tendon_count; ++j) {
-        const Tendon& tendon = robot.tendons[j];
-        const double sigma = middle - value(translation[tendon.tube]);
-        if (sigma <= 0.0 || sigma >= tendon.end) continue;
-        Hosted hosted;
-        hosted.tendon = j;
-        hosted.slot = tendon.outermost ? 0 : slot_of(section, tendon.tube);
-        hosted.routing = piece_at(robot.routing, tendon.piece_begin, tendon.piece_end, sigma);
-        hosted.profile = tendon.profile_begin == tendon.profile_end
-                             ? -1
-                             : piece_at(robot.profiles, tendon.profile_begin, tendon.profile_end, sigma);
-        layout.hosted.push_back(hosted);
-    }
-    section.hosted.end = static_cast<int>(layout.hosted.size());
-    layout.max_hosted = std::max(layout.max_hosted, section.hosted.end - section.hosted.begin);
-}
+class Breakpoints {
+  public:
+    std::vector<P> s;
 
-template <class P>
-void place_loads(const Robot& robot, const P* translation, double middle, Section<P>& section, Layout<P>& layout) {
-    section.distributed_loads.begin = static_cast<int>(layout.distributed_loads.size());
-    for (int l = 0; l < robot.distributed_load_count; ++l) {
-        const DistributedLoad& load = robot.distributed_loads[l];
-        const double base = load.tube < 0 ? 0.0 : value(translation[load.tube]);
-        if (middle <= base + load.start || middle >= base + load.end) continue;
-        const int slot = load.tube < 0 ? 0 : slot_of(section, load.tube);
-        if (slot >= 0) layout.distributed_loads.push_back({l, slot});
-    }
-    section.distributed_loads.end = static_cast<int>(layout.distributed_loads.size());
-    section.point_loads.begin = static_cast<int>(layout.point_loads.size());
-    for (int l = 0; l < robot.point_load_count; ++l) {
-        const PointLoad& load = robot.point_loads[l];
-        const double s = value(translation[load.tube]) + load.at;
-        if (std::fabs(s - value(section.distal)) > BREAKPOINT_GAP) continue;
-        const int slot = slot_of(section, load.tube);
-        if (slot >= 0) layout.point_loads.push_back({l, slot});
-    }
-    section.point_loads.end = static_cast<int>(layout.point_loads.size());
-}
+    void add(const P& place) { s.push_back(place); }
 
-template <class P>
-Layout<P> cut_into_sections(const Robot& robot, const P* translation) {
-    Layout<P> layout;
-    const std::vector<P> all = breakpoints(robot, translation);
-    double last = value(translation[0]), first = value(translation[0]);
-    for (int i = 0; i < robot.tube_count; ++i) {
-        first = std::min(first, value(translation[i]));
-        last = std::max(last, value(translation[i]) + robot.tubes[i].length);
+    void settle() {
+        std::stable_sort(s.begin(), s.end(), [](const P& a, const P& b) { return value(a) < value(b); });
+        size_t kept = 0;
+        for (const P& place : std::vector<P>(s))
+            if (find(place, kept) < 0) s[kept++] = place;
+        s.resize(kept);
     }
-    const P* proximal = nullptr;
-    for (const P& s : all) {
-        if (value(s) < first || value(s) > last + BREAKPOINT_GAP) continue;
-        if (proximal && value(s) - value(*proximal) > BREAKPOINT_GAP) {
-            Section<P> section;
-            section.proximal = *proximal;
-            section.distal = s;
-            const double middle = 0.5 * (value(*proximal) + value(s));
-            section.guided = middle < 0.0;
-            place_tubes(robot, translation, middle, section);
-            place_tendons(robot, translation, middle, section, layout);
-            place_loads(robot, translation, middle, section, layout);
-            layout.sections.push_back(section);
-            proximal = &s;
+
+    /// Index of a place that was added; -1 before all of them, their number beyond.
+    int at(const P& place) const {
+        const int found = find(place, s.size());
+        return found >= 0 ? found : value(place) < value(s.front()) ? -1 : static_cast<int>(s.size());
+    }
+
+  private:
+    int find(const P& place, size_t count) const {
+        for (size_t k = 0; k < count; ++k)
+            if (std::fabs(value(place) - value(s[k])) <= BREAKPOINT_GAP && same_derivatives(place, s[k])) return static_cast<int>(k);
+        return -1;
+    }
+};
+
+/// Cuts one robot; tube ends, ends and starts of tendons and pieces, and loads are found by the index of their place, so
+/// that it does not matter how near to each other they are.
+template <class P, class C>
+class Cutter {
+  public:
+    Cutter(const RobotOf<C>& robot, const P* translation, const P* probe, int withdrawn) : robot_(robot), translation_(translation) {
+        add_ends(withdrawn);
+        add_tendons();
+        add_loads();
+        if (probe) breaks_.add(*probe);
+        breaks_.settle();
+    }
+
+    Layout<P> cut() const {
+        Layout<P> layout;
+        int first = breaks_.at(translation_[0]), last = 0;
+        for (int i = 0; i < robot_.tube_count; ++i) {
+            first = std::min(first, breaks_.at(translation_[i]));
+            last = std::max(last, breaks_.at(tip(i)));
         }
-        if (!proximal) proximal = &s;
+        const int exit = breaks_.at(P(0.0));
+        layout.sections.reserve(last - first);
+        for (int k = first; k < last; ++k) {
+            Section<P> section;
+            section.proximal = breaks_.s[k];
+            section.distal = breaks_.s[k + 1];
+            section.guided = k < exit;
+            place_tubes(k, section);
+            place_tendons(k, section, layout);
+            place_loads(k, section, layout);
+            layout.sections.push_back(section);
+        }
+        return layout;
     }
-    return layout;
+
+  private:
+    const RobotOf<C>& robot_;
+    const P* translation_;
+    Breakpoints<P> breaks_;
+
+    P tip(int i) const { return translation_[i] + robot_.tubes[i].length; }
+
+    /// Proximal ends before the guide's exit: where they are at one place, they can only move back from it.
+    void add_ends(int withdrawn) {
+        if (withdrawn >= 0) breaks_.add(translation_[withdrawn]);
+        for (int i = 0; i < robot_.tube_count; ++i) breaks_.add(translation_[i]);
+        breaks_.add(P(0.0));
+        for (int i = 0; i < robot_.tube_count; ++i) {
+            const TubeOf<C>& tube = robot_.tubes[i];
+            breaks_.add(tip(i));
+            for (int k = tube.piece_begin + 1; k < tube.piece_end; ++k) breaks_.add(translation_[i] + robot_.pieces[k].start);
+        }
+    }
+
+    void add_tendons() {
+        for (int j = 0; j < robot_.tendon_count; ++j) {
+            const TendonOf<C>& tendon = robot_.tendons[j];
+            const P& base = translation_[tendon.tube];
+            breaks_.add(base + tendon.end);
+            for (int k = tendon.piece_begin + 1; k < tendon.piece_end; ++k)
+                if (value(robot_.routing[k].start) < value(tendon.end)) breaks_.add(base + robot_.routing[k].start);
+            for (int k = tendon.profile_begin + 1; k < tendon.profile_end; ++k)
+                if (value(robot_.profiles[k].start) < value(tendon.end)) breaks_.add(base + robot_.profiles[k].start);
+        }
+    }
+
+    void add_loads() {
+        for (int l = 0; l < robot_.point_load_count; ++l)
+            breaks_.add(translation_[robot_.point_loads[l].tube] + robot_.point_loads[l].at);
+        for (int l = 0; l < robot_.distributed_load_count; ++l) {
+            const DistributedLoadOf<C>& load = robot_.distributed_loads[l];
+            breaks_.add(base_of(load) + load.start);
+            breaks_.add(base_of(load) + load.end);
+        }
+    }
+
+    P base_of(const DistributedLoadOf<C>& load) const { return load.tube < 0 ? P(0.0) : translation_[load.tube]; }
+
+    bool covers(int k, const P& begin, const P& end) const { return breaks_.at(begin) <= k && breaks_.at(end) > k; }
+
+    /// The last of the pieces from begin that starts not beyond breakpoint k.
+    template <class Piece>
+    int piece_at(const Piece* pieces, int begin, int end, const P& base, int k) const {
+        int found = begin;
+        for (int i = begin + 1; i < end; ++i)
+            if (breaks_.at(base + pieces[i].start) <= k) found = i;
+        return found;
+    }
+
+    void place_tubes(int k, Section<P>& section) const {
+        section.active_count = 0;
+        for (int i = 0; i < robot_.tube_count; ++i) {
+            if (!covers(k, translation_[i], tip(i))) continue;
+            const TubeOf<C>& tube = robot_.tubes[i];
+            section.active[section.active_count] = i;
+            section.piece[section.active_count++] = piece_at(robot_.pieces, tube.piece_begin, tube.piece_end, translation_[i], k);
+        }
+    }
+
+    void place_tendons(int k, Section<P>& section, Layout<P>& layout) const {
+        section.hosted.begin = static_cast<int>(layout.hosted.size());
+        for (int j = 0; j < robot_.tendon_count; ++j) {
+            const TendonOf<C>& tendon = robot_.tendons[j];
+            const P& base = translation_[tendon.tube];
+            if (!covers(k, base, base + tendon.end)) continue;
+            Hosted hosted;
+            hosted.tendon = j;
+            hosted.slot = tendon.outermost ? 0 : slot_of(section, tendon.tube);
+            hosted.routing = piece_at(robot_.routing, tendon.piece_begin, tendon.piece_end, base, k);
+            hosted.profile = tendon.profile_begin == tendon.profile_end
+                                 ? -1
+                                 : piece_at(robot_.profiles, tendon.profile_begin, tendon.profile_end, base, k);
+            layout.hosted.push_back(hosted);
+        }
+        section.hosted.end = static_cast<int>(layout.hosted.size());
+        layout.max_hosted = std::max(layout.max_hosted, section.hosted.end - section.hosted.begin);
+    }
+
+    void place_loads(int k, Section<P>& section, Layout<P>& layout) const {
+        section.distributed_loads.begin = static_cast<int>(layout.distributed_loads.size());
+        for (int l = 0; l < robot_.distributed_load_count; ++l) {
+            const DistributedLoadOf<C>& load = robot_.distributed_loads[l];
+            if (!covers(k, base_of(load) + load.start, base_of(load) + load.end)) continue;
+            const int slot = load.tube < 0 ? 0 : slot_of(section, load.tube);
+            if (slot >= 0) layout.distributed_loads.push_back({l, slot});
+        }
+        section.distributed_loads.end = static_cast<int>(layout.distributed_loads.size());
+        section.point_loads.begin = static_cast<int>(layout.point_loads.size());
+        for (int l = 0; l < robot_.point_load_count; ++l) {
+            const PointLoadOf<C>& load = robot_.point_loads[l];
+            if (breaks_.at(translation_[load.tube] + load.at) != k + 1) continue;
+            const int slot = slot_of(section, load.tube);
+            if (slot >= 0) layout.point_loads.push_back({l, slot});
+        }
+        section.point_loads.end = static_cast<int>(layout.point_loads.size());
+    }
+};
+
+/// probe: one more breakpoint, where wanted. withdrawn: a tube whose proximal end counts as further back than others at
+/// its place.
+template <class P, class C>
+Layout<P> cut_into_sections(const RobotOf<C>& robot, const P* translation, const P* probe = nullptr, int withdrawn = -1) {
+    return Cutter<P, C>(robot, translation, probe, withdrawn).cut();
 }
 
 }  // namespace tactr

@@ -65,6 +65,7 @@ inline std::vector<Solution> branches(const Robot& robot, const Actuation<double
     const bool converged = converge_cold(cold, first);
     Settings settings = given;
     settings.max_iterations = 25;
+    settings.max_steps = MOST_OF_ONE_START;
     NewtonSolver newton(robot, actuation, settings);
     if (!converged) {
         newton.start_straight(first);

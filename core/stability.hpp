@@ -12,7 +12,7 @@
 
 namespace tactr {
 
-/// From base to tip. determinant: of D(s), 1 at the tip; conjugate: where D loses a rank, once for each rank.
+/// From base to tip. determinant: of D(s), scaled to 1 at the tip; conjugate: where D loses a rank, once for each rank.
 struct StabilityReport {
     bool stable = true;
     double margin = 1.0;
@@ -31,9 +31,13 @@ class JacobiObserver {
     JacobiObserver(const Layout<double>& layout, const Shooting& shooting, const FreeEnd<T>& end, int tubes, int samples,
                    StabilityReport& report)
         : section_error(layout.sections.size(), 0.0), layout_(layout), n_(shooting.unknowns), tubes_(tubes),
-          world_(shooting.world), samples_(samples), report_(report), counter_(n_) {
+          reference_(shooting.tip_tube), world_(shooting.world), samples_(samples), report_(report), counter_(n_) {
         for (int i = 0; i < tubes_; ++i) psi_[i] = end.psi[i];
         for (int c = 0; c < 4; ++c) quaternion_[c] = end.quaternion[c];
+        Field tip;
+        assemble(tip);
+        counter_.move_to(tip);
+        orientation_ = raw_determinant(tip);
     }
 
     template <class M>
@@ -60,38 +64,49 @@ class JacobiObserver {
 
   private:
     const Layout<double>& layout_;
-    const int n_, tubes_;
+    const int n_, tubes_, reference_;
     const bool world_;
     const int samples_;
     StabilityReport& report_;
     ConjugateCounter counter_;
     DenseOutput<T> dense_;
     T psi_[MAX_TUBES], quaternion_[4];  // seeds of tubes still to come; where a tube was clamped, the last value stays
+    double orientation_ = 1.0;          // of the rows of D: its determinant at the tip, 1 or -1
     double last_ = 0.0;                 // fraction of the step at the last sample
 
-    /// D: the angles from the first tube; with loads in world axes also the rotation of R_b about its own axes, the third
-    /// with the first tube. Tubes that are not there yet bring in their unknown as it is.
+    /// D: the angles from the reference tube; with loads in world axes also the rotation of that tube's frame, in axes
+    /// fixed in space: in axes that turn along the robot, D_k+1 D_k^-1 would hold their turn. Tubes that are not there
+    /// yet bring in their unknown as it is.
     void read(const Packing& packing, const Section<double>& section, const T* packed, Field& field) {
         for (int a = 0; a < section.active_count; ++a) psi_[section.active[a]] = packed[3 * a];
-        for (int i = 1; i < tubes_; ++i)
-            for (int l = 0; l < n_; ++l) field.D[i - 1][l] = psi_[i].d[l] - psi_[0].d[l];
-        if (!world_) return;
-        if (packing.frame >= 0)
+        if (world_ && packing.frame >= 0)
             for (int c = 0; c < 4; ++c) quaternion_[c] = packed[packing.frame + c];
+        assemble(field);
+    }
+
+    void assemble(Field& field) const {
+        for (int i = 0, row = 0; i < tubes_; ++i) {
+            if (i == reference_) continue;
+            for (int l = 0; l < n_; ++l) field.D[row][l] = psi_[i].d[l] - psi_[reference_].d[l];
+            ++row;
+        }
+        if (!world_) return;
         const T* q = quaternion_;
         const double w = q[0].v, x = q[1].v, y = q[2].v, z = q[3].v, f = 2.0 / (w * w + x * x + y * y + z * z);
-        double(*turn)[MAX_UNKNOWNS] = field.D + tubes_ - 1;
+        const double unit[4] = {w, x, y, z};
         for (int l = 0; l < n_; ++l) {
             const double dw = q[0].d[l], dx = q[1].d[l], dy = q[2].d[l], dz = q[3].d[l];
-            turn[0][l] = f * (w * dx - x * dw - y * dz + z * dy);
-            turn[1][l] = f * (w * dy + x * dz - y * dw - z * dx);
-            turn[2][l] = f * (w * dz - x * dy + y * dx - z * dw) + psi_[0].d[l];
+            const double turn[3] = {f * (w * dx - x * dw - y * dz + z * dy), f * (w * dy + x * dz - y * dw - z * dx),
+                                    f * (w * dz - x * dy + y * dx - z * dw) + psi_[reference_].d[l]};
+            double fixed[3];
+            to_world(unit, turn, fixed);
+            for (int r = 0; r < 3; ++r) field.D[tubes_ - 1 + r][l] = fixed[r];
         }
     }
 
     void note(const Packing& packing, const Section<double>& section, const Field& field, double x, double s, double h) {
         const bool base = x == 1.0 && s + h <= layout_.sections.front().proximal + BREAKPOINT_GAP;
-        const double determinant = determinant_of(field);
+        const double determinant = raw_determinant(field) / orientation_;
         report_.margin = std::min(report_.margin, determinant);
         if (samples_ > 0) {
             report_.s.push_back(s + h * x);
@@ -108,7 +123,7 @@ class JacobiObserver {
         last_ = x < 1.0 ? x : 0.0;
     }
 
-    double determinant_of(const Field& field) const {
+    double raw_determinant(const Field& field) const {
         Field inverse;
         return invert(n_, field.D, inverse.D);
     }

@@ -1,5 +1,6 @@
 // What a tube is at one cross-section: its stiffness, rest strains and neutral axis there.
 #pragma once
+#include "dual.hpp"
 #include "robot.hpp"
 
 namespace tactr {
@@ -15,8 +16,8 @@ struct TubeState {
 };
 
 /// The tube at sigma. shape_scale multiplies the rest strains u* and v* - e3.
-template <class C>
-inline TubeState<C> tube_at(const TubePiece& piece, const C& sigma, double shape_scale) {
+template <class C, class R>
+inline TubeState<C> tube_at(const TubePieceOf<R>& piece, const C& sigma, double shape_scale) {
     C q[QUANTITIES];
     for (int i = 0; i < QUANTITIES; ++i) q[i] = C(piece.c[piece.count - 1][i]);
     const C d = sigma - piece.start;
@@ -26,6 +27,23 @@ inline TubeState<C> tube_at(const TubePiece& piece, const C& sigma, double shape
     return {q[EIX],       q[EIY],       q[GJ],        q[EA],        q[GA],
             {q[USTAR], q[USTAR + 1], q[USTAR + 2]}, {q[VSTAR], q[VSTAR + 1], q[VSTAR + 2]}, {q[AXIS], q[AXIS + 1]},
             piece.plain != 0};
+}
+
+template <class C>
+inline TubeState<double> values_of(const TubeState<C>& t) {
+    TubeState<double> r;
+    r.EIx = value(t.EIx);
+    r.EIy = value(t.EIy);
+    r.GJ = value(t.GJ);
+    r.EA = value(t.EA);
+    r.GA = value(t.GA);
+    for (int i = 0; i < 3; ++i) {
+        r.ustar[i] = value(t.ustar[i]);
+        r.vstar[i] = value(t.vstar[i]);
+    }
+    for (int i = 0; i < 2; ++i) r.axis[i] = value(t.axis[i]);
+    r.plain = t.plain;
+    return r;
 }
 
 }  // namespace tactr

@@ -51,8 +51,19 @@ def solve(
 ) -> Solution:
     """Free-end unknowns, residuals and tip of one robot at one actuation."""
 
-def tip_jacobian(robot: PreparedRobot, solution: Solution) -> np.ndarray:
-    """d(tip position, tip rotation)/d(tensions, rotations)."""
+def sensitivities(
+    robot: PreparedRobot,
+    solution: Solution,
+    stations: np.ndarray,
+    lengths: bool,
+    actuators: bool,
+    probe: float,
+    rates: list[PreparedRobot],
+) -> np.ndarray:
+    """Exact derivatives: rows tip, stations, lengths; columns tensions, rotations, translations, wrench, parameters."""
+
+def length_jacobian(robot: PreparedRobot, solution: Solution) -> np.ndarray:
+    """d(tendon lengths)/d(tensions)."""
 
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""

@@ -24,7 +24,9 @@ def pair(size: float, angle: float) -> Robot:
             Tube(
                 name,
                 length=LENGTH,
-                section=Stiffness(EA=1e4 * f, GA=4e3 * f, EI_x=1e-3 * f, EI_y=1e-3 * f, GJ=1e-3 * f / (1 + NU)),
+                section=Stiffness(
+                    EA=1e4 * f, GA=4e3 * f, EI_x=1e-3 * f, EI_y=1e-3 * f, GJ=1e-3 * f / (1 + NU)
+                ),
                 precurvature=(k, 0.0, 0.0),
                 rotation=rotation,
             )
@@ -34,8 +36,10 @@ def pair(size: float, angle: float) -> Robot:
 
 
 def pendulum_base(tip: float, size: float) -> float:
-    """The angle at the base for an angle at the tip: a'' = size^2 sin a over unit length, a' = 0 at the tip."""
-    path = solve_ivp(lambda _, a: (a[1], size**2 * math.sin(a[0])), (1.0, 0.0), (tip, 0.0), rtol=1e-12, atol=1e-13)
+    """The base angle for one at the tip: a'' = size^2 sin a over unit length, a' = 0 at the tip."""
+    path = solve_ivp(
+        lambda _, a: (a[1], size**2 * math.sin(a[0])), (1.0, 0.0), (tip, 0.0), rtol=1e-12, atol=1e-13
+    )
     return float(path.y[0, -1])
 
 
@@ -48,7 +52,9 @@ def pendulum_tips(angle: float, size: float) -> list[float]:
         missed = bases - angle - math.tau * m
         for k in np.flatnonzero(missed[:-1] * missed[1:] < 0.0):
             wanted = angle + math.tau * m
-            root = brentq(lambda x, w=wanted: pendulum_base(x, size) - w, places[k], places[k + 1], xtol=1e-13)
+            root = brentq(
+                lambda x, w=wanted: pendulum_base(x, size) - w, places[k], places[k + 1], xtol=1e-13
+            )
             tips.append(root - math.tau * m)
     return sorted(tips)
 
@@ -71,7 +77,9 @@ def tips(shapes: list[Shape]) -> list[float]:
         (6.0, 60.0, None, None),
     ],
 )
-def test_two_tubes_against_the_pendulum(size: float, angle: float, count: int | None, stable: int | None) -> None:
+def test_two_tubes_against_the_pendulum(
+    size: float, angle: float, count: int | None, stable: int | None
+) -> None:
     shapes = tactr.branches(pair(size, math.radians(angle)), tolerance=1e-10)
     expected = pendulum_tips(math.radians(angle), size)
     np.testing.assert_allclose(tips(shapes), expected, rtol=0.0, atol=1e-7)
@@ -89,7 +97,11 @@ def test_order_is_by_stability_then_energy() -> None:
 
 def ctr(turns: tuple[float, float, float], loads: tuple = ()) -> Robot:
     """Three tubes curved beyond where they snap."""
-    rows = (("outer", 0.09, 1.4e-3, 1.2e-3), ("middle", 0.12, 1.1e-3, 0.97e-3), ("inner", 0.15, 0.92e-3, 0.8e-3))
+    rows = (
+        ("outer", 0.09, 1.4e-3, 1.2e-3),
+        ("middle", 0.12, 1.1e-3, 0.97e-3),
+        ("inner", 0.15, 0.92e-3, 0.8e-3),
+    )
     return Robot(
         [
             Tube(
@@ -106,18 +118,24 @@ def ctr(turns: tuple[float, float, float], loads: tuple = ()) -> Robot:
     )
 
 
-LOADS = {"none": (), "force": (PointLoad("inner", force=(0.02, 0.03, -0.03)),), "weight": (Gravity((0.0, 9.81, 0.0)),)}
+LOADS = {
+    "none": (),
+    "force": (PointLoad("inner", force=(0.02, 0.03, -0.03)),),
+    "weight": (Gravity((0.0, 9.81, 0.0)),),
+}
 
 
 @pytest.mark.parametrize("name", LOADS)
 def test_signs_of_the_determinants_add_up_to_one(name: str) -> None:
-    """The map from free end to base has degree 1; the index of an equilibrium is its number of conjugate points."""
+    """The map from free end to base has degree 1; conjugate points give the sign of every solution."""
     counts = []
     for turns in ((0.0, 3.0, 2.0), (0.0, 2.9, -2.7), (0.0, math.pi, 0.1)):
         shapes = tactr.branches(ctr(turns, LOADS[name]))
         assert sum((-1) ** len(shape.stability.conjugate_points) for shape in shapes) == 1
         for shape in shapes:
-            assert (np.sign(shape.stability.determinant[0]) > 0) == (len(shape.stability.conjugate_points) % 2 == 0)
+            assert (np.sign(shape.stability.determinant[0]) > 0) == (
+                len(shape.stability.conjugate_points) % 2 == 0
+            )
         assert shapes[0].potential_energy == min(shape.potential_energy for shape in shapes) and shapes[0].stability.stable
         counts.append(len(shapes))
     assert max(counts) > 1
@@ -164,7 +182,9 @@ def test_a_cold_start_buckles(force: float) -> None:
     """Deflection of the elastica against a pendulum integrated here: phi'' = -(P / EI) sin(phi)."""
     section = Stiffness(EA=1e8, GA=1e8, EI_x=1e-2, EI_y=1.2e-2, GJ=8e-3)
     load = force * math.pi**2 * 1e-2 / (4 * LENGTH**2)
-    robot = Robot([Tube("rod", length=LENGTH, section=section)], loads=[PointLoad("rod", force=(0, 0, -load))])
+    robot = Robot(
+        [Tube("rod", length=LENGTH, section=section)], loads=[PointLoad("rod", force=(0, 0, -load))]
+    )
     shape = tactr.solve(robot, tolerance=1e-9)
     assert shape.stability.stable
 

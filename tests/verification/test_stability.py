@@ -32,7 +32,9 @@ def opposed(size: float, *, behind: tuple[float, float] = (0.0, 0.0), beyond: fl
                 name,
                 length=LENGTH + straight + more,
                 translation=-straight,
-                section=Stiffness(EA=1e4 * f, GA=4e3 * f, EI_x=1e-3 * f, EI_y=1e-3 * f, GJ=1e-3 * f / (1 + NU)),
+                section=Stiffness(
+                    EA=1e4 * f, GA=4e3 * f, EI_x=1e-3 * f, EI_y=1e-3 * f, GJ=1e-3 * f / (1 + NU)
+                ),
                 precurvature=[(0.0, (0.0, 0.0, 0.0)), curved] if straight else [(0.0, curved[1])],
                 rotation=rotation,
             )
@@ -126,12 +128,17 @@ def test_a_round_rod_buckles_both_ways_at_once(force: float, roots: int) -> None
 def test_a_flat_rod_buckles_one_way_first(flat: float) -> None:
     found = limit(lambda force: straight_shape(force, flat=flat).stability, 0.5, 1.2)
     assert found == pytest.approx(1.0, rel=1e-4)
-    ways = [len(straight_shape(f, flat=flat).stability.conjugate_points) for f in (0.9995, 0.5 * (1 + flat), 1.1 * flat)]
+    ways = [
+        len(straight_shape(f, flat=flat).stability.conjugate_points)
+        for f in (0.9995, 0.5 * (1 + flat), 1.1 * flat)
+    ]
     assert ways == [0, 1, 2]
 
 
 def test_without_loads_one_tube_is_stable() -> None:
-    tube = Tube("rod", length=0.2, section=Rod(1e-3), material=Material(E=54e9, nu=0.3), precurvature=(9, 3, 1))
+    tube = Tube(
+        "rod", length=0.2, section=Rod(1e-3), material=Material(E=54e9, nu=0.3), precurvature=(9, 3, 1)
+    )
     shape = tactr.solve(Robot([tube], [Tendon("t", "rod", Straight(5e-3, 0.0), tension=3.0)]))
     assert shape.stability.stable and shape.stability.margin == 1.0
     assert repr(shape.stability) == "<Stability: stable, margin 1>"
@@ -149,7 +156,9 @@ def loaded(tension: float, force: float) -> Robot:
     material = Material(E=60e9, nu=0.3)
     tubes = [
         Tube("outer", length=0.1, section=Annulus(1.4e-3, 1.1e-3), material=material, precurvature=(4, 0, 0)),
-        Tube("inner", length=0.15, section=Rod(0.9e-3), material=material, precurvature=(0, 6, 0), rotation=1.0),
+        Tube(
+            "inner", length=0.15, section=Rod(0.9e-3), material=material, precurvature=(0, 6, 0), rotation=1.0
+        ),
     ]
     tendon = Tendon("t", "inner", Straight(2e-3, 1e-3), tension=tension)
     return Robot(tubes, [tendon], [PointLoad("inner", force=(force, 0.02, -0.1))])
@@ -160,7 +169,9 @@ def test_energy_falls_by_the_work_of_a_force_and_rises_by_a_tendons_length() -> 
     shape = tactr.solve(loaded(1.0, 0.05), tolerance=1e-10)
 
     def slope(dt: float, df: float) -> float:
-        high, low = (tactr.solve(loaded(1.0 + s * dt, 0.05 + s * df), guess=shape, tolerance=1e-10) for s in (1, -1))
+        high, low = (
+            tactr.solve(loaded(1.0 + s * dt, 0.05 + s * df), guess=shape, tolerance=1e-10) for s in (1, -1)
+        )
         return (high.potential_energy - low.potential_energy) / 2
 
     assert slope(1e-3, 0.0) / 1e-3 == pytest.approx(shape.tendons[0].length, rel=1e-5)

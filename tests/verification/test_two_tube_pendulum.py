@@ -62,7 +62,7 @@ def test_turning_angle_keeps_the_energy_of_the_pendulum() -> None:
 
 
 def opposed(size: float, **options: float) -> Shape:
-    """The shape in which the tubes stay opposed, stable or not: from cold it would be left for a stable one."""
+    """The shape in which the tubes stay opposed, stable or not: a cold start leaves it for a stable one."""
     gentle = tactr.solve(pair(0.1, math.pi, **options), tolerance=1e-10)
     return tactr.solve(pair(size, math.pi, **options), guess=gentle, tolerance=1e-10)
 

@@ -2,9 +2,10 @@
 
 from tactr.statics.contact import Contact, GuideReaction, PointContacts
 from tactr.statics.follow import Followed, Snap, follow
+from tactr.statics.derivatives import Jacobian
 from tactr.statics.mechanics import ActuatorForces
 from tactr.statics.rest import rest_lengths
-from tactr.statics.shape import Shape, TendonShape, TipJacobian, TubeShape
+from tactr.statics.shape import Shape, TendonShape, TubeShape
 from tactr.statics.solve import Prepared, branches, solve
 from tactr.statics.stability import Stability
 from tactr.statics.status import Status
@@ -22,7 +23,7 @@ __all__ = [
     "Stability",
     "Status",
     "TendonShape",
-    "TipJacobian",
+    "Jacobian",
     "TubeShape",
     "Work",
     "branches",

@@ -17,9 +17,14 @@ TUBE_COEFFICIENTS = 8
 
 
 def assemble(robot: Robot) -> _core.PreparedRobot:
-    """The robot as the kernel sees it: tubes, tendons, routing, tension profiles and loads as tables."""
+    """The robot as the kernel sees it."""
+    return _core.PreparedRobot(**tables(robot))
+
+
+def tables(robot: Robot) -> dict[str, np.ndarray]:
+    """Tubes, pieces of tubes, tendons, routing, tension profiles and loads as numbers, a row for each."""
     index = {tube.name: i for i, tube in enumerate(robot.tubes)}
-    return _core.PreparedRobot(
+    return dict(
         tubes=_table([_tube_row(tube) for tube in robot.tubes], 3),
         pieces=_table(
             [row for tube in robot.tubes for row in _piece_rows(tube)], 2 + QUANTITIES * TUBE_COEFFICIENTS

@@ -28,6 +28,9 @@ MET_SHARE = 0.1  # of the tolerance at the tip may be missing in a displacement
 AIM_SHARE = 0.1  # of what may be missing: where Newton stops
 MOST_STEPS = 40
 SHORTEST = 1e-4  # of a step
+STAYING = 0.05  # a step still shorter may leave its branch,
+MOST_JUMPS = 4  # though a solve that looks for another one costs a hundred others
+LEAST_SHARE = 2e-3  # of the way from no displacement, in one step
 LARGEST = float(np.finfo(float).max)  # m, for a gap that is not known
 CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibility
 
@@ -62,6 +65,14 @@ class Pulls:
         """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one."""
         gap = self.gap(solution)
         return np.where(solution.tension[self.index] > 0.0, np.abs(gap), np.maximum(-gap, 0.0))
+
+    def flexibility(self, prepared: _core.PreparedRobot, solution: _core.Solution) -> np.ndarray | None:
+        """d gap / d tension, (n, n), m/N; None at a fold, where lengths jump."""
+        try:
+            lengths = _core.length_jacobian(prepared, solution)
+        except RuntimeError:
+            return None
+        return np.diag(self.compliance) - lengths[np.ix_(self.index, self.index)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,13 +109,26 @@ class Pulled:
         By the implicit function theorem from the gaps of the taut tendons; where these do not tell the
         tensions apart (tendons without compliance side by side), the least change of tension.
         """
-        m = len(self.solution.tension)
-        taut = self.pulls.index[self.tension > 0.0]
-        compliance = self.pulls.compliance[self.tension > 0.0]
-        flexibility = np.diag(compliance) - _core.length_jacobian(prepared, self.solution)[np.ix_(taut, taut)]
-        whole = np.zeros((m, m))
-        whole[np.ix_(taut, taut)] = np.linalg.pinv(flexibility, rcond=SINGULAR, hermitian=False)
+        taut = self.tension > 0.0
+        m, places = len(self.solution.tension), self.pulls.index[taut]
+        flexibility, whole = self.pulls.flexibility(prepared, self.solution), np.zeros((m, m))
+        if flexibility is not None:
+            inverse = np.linalg.pinv(flexibility[np.ix_(taut, taut)], rcond=SINGULAR)
+            whole[np.ix_(places, places)] = inverse
         return whole
+
+
+def is_stable(prepared: _core.PreparedRobot, pulls: Pulls, solution: _core.Solution) -> bool:
+    """Whether a shape is stable with the motors held: as many directions of falling energy at held tensions
+    as negative flexibilities of the taut tendons, each of which a held motor takes away (inertia of the
+    bordered second variation, Haynsworth 1968)."""
+    falling = len(_core.stability(prepared, solution, 0)[4])
+    flexibility = pulls.flexibility(prepared, solution) if falling > 0 else None
+    if flexibility is None:
+        return falling == 0
+    taut = solution.tension[pulls.index] > 0.0
+    part = flexibility[np.ix_(taut, taut)]
+    return int((np.linalg.eigvalsh(0.5 * (part + part.T)) < 0.0).sum()) == falling
 
 
 class DisplacementSolver:
@@ -118,6 +142,7 @@ class DisplacementSolver:
         self._pulls = pulls
         self._tension = tension  # of all tendons; those pulled by displacement are to be found
         self._solves = self._marches = 0
+        self._jumps = MOST_JUMPS
 
     def from_guess(self, guess: _core.Solution) -> Pulled:
         """From a neighbour and its tensions."""
@@ -133,23 +158,14 @@ class DisplacementSolver:
             found = attempt(first)
             if self._rank(found) < self._rank(best):
                 best = found
-        stable = self.is_stable(best) if best.status == 0 else None
+        stable = self._is_stable(best) if best.status == 0 else None
         return self._result(best, stable)
 
-    def is_stable(self, solution: _core.Solution) -> bool:
-        """Whether a shape is stable with the motors held: as many directions of falling energy at held
-        tensions as negative flexibilities of the taut tendons, each of which a held motor takes away (inertia
-        of the bordered second variation, Haynsworth 1968)."""
-        falling = len(_core.stability(self._prepared, solution, 0)[4])
-        if falling == 0:
-            return True
-        taut = solution.tension[self._pulls.index] > 0.0
-        flexibility = self._flexibility(solution)[np.ix_(taut, taut)]
-        negative = int((np.linalg.eigvalsh(0.5 * (flexibility + flexibility.T)) < 0.0).sum())
-        return negative == falling
+    def _is_stable(self, solution: _core.Solution) -> bool:
+        return is_stable(self._prepared, self._pulls, solution)
 
     def _good(self, solution: _core.Solution) -> bool:
-        return self._rank(solution)[0] == 0 and self.is_stable(solution)
+        return self._rank(solution)[0] == 0 and self._is_stable(solution)
 
     def _rank(self, solution: _core.Solution) -> tuple[int, float]:
         """Smaller is better."""
@@ -158,7 +174,7 @@ class DisplacementSolver:
         missed = float(self._pulls.missed(solution).max(initial=0.0))
         if missed > self._pulls.tolerance:
             return 2, missed
-        return (0, 0.0) if self.is_stable(solution) else (1, 0.0)
+        return (0, 0.0) if self._is_stable(solution) else (1, 0.0)
 
     def _again(self, first: _core.Solution) -> _core.Solution:
         """From a cold solve at the tensions found: perhaps another branch."""
@@ -167,20 +183,25 @@ class DisplacementSolver:
         return self._newton(self._solve(first.tension[self._pulls.index], None))
 
     def _gradually(self, first: _core.Solution) -> _core.Solution:
-        """Growing displacements, from those that leave every tendon just without tension."""
-        solution = self._solve(np.zeros(len(self._pulls.index)), None)
+        """Growing displacements, from those that leave every tendon just without tension, and growing held
+        tensions: these alone may bend the tubes beyond what they can take."""
+        ahead = np.zeros(len(self._pulls.index))
+        solution = self._solve(ahead, None, held=0.0)
         if solution.status != 0:
             return first
         ahead = np.maximum(-self._pulls.gap(solution), 0.0)
         done, share = 0.0, 0.125
-        while done < 1.0 and share > 2e-3:
+        while done < 1.0 and share > LEAST_SHARE:
             to = min(1.0, done + share)
-            found = self._newton(solution, shift=(1.0 - to) * ahead)
-            if found.status == 0 and self._missed(found, (1.0 - to) * ahead) <= self._pulls.tolerance:
+            start = self._solve(solution.tension[self._pulls.index], solution, stay=True, held=to)
+            found = self._newton(start, shift=(1.0 - to) * ahead, held=to)
+            if self._missed(found, (1.0 - to) * ahead) <= self._pulls.tolerance:
                 solution, done, share = found, to, 1.7 * share
             else:
                 share *= 0.4
-        return self._newton(solution)
+        if done < 1.0:
+            return first
+        return solution
 
     def _missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> float:
         if solution.status != 0:
@@ -189,8 +210,11 @@ class DisplacementSolver:
         taut = solution.tension[self._pulls.index] > 0.0
         return float(np.where(taut, np.abs(gap), np.maximum(-gap, 0.0)).max(initial=0.0))
 
-    def _newton(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> _core.Solution:
-        """Until no gap is missed, or no step leads on. shift: added to the gaps, m."""
+    def _newton(
+        self, solution: _core.Solution, shift: np.ndarray | float = 0.0, held: float = 1.0
+    ) -> _core.Solution:
+        """Until no gap is missed, or no step leads on. shift: added to the gaps, m; held: of the tensions of
+        the tendons that have one."""
         flexibility, aim = None, AIM_SHARE * self._pulls.tolerance
         missed = self._missed(solution, shift)
         for _ in range(MOST_STEPS):
@@ -198,7 +222,9 @@ class DisplacementSolver:
                 break
             if flexibility is None:
                 flexibility = self._flexibility(solution)
-            after = self._step(solution, flexibility, shift)
+            if flexibility is None:
+                break
+            after = self._step(solution, flexibility, shift, held)
             if after is None:
                 break
             before, missed, solution = missed, self._missed(after, shift), after
@@ -207,7 +233,7 @@ class DisplacementSolver:
         return solution
 
     def _step(
-        self, solution: _core.Solution, flexibility: np.ndarray, shift: np.ndarray | float
+        self, solution: _core.Solution, flexibility: np.ndarray, shift: np.ndarray | float, held: float
     ) -> _core.Solution | None:
         """One step; shortened while it overshoots the least of the dual energy, whose slope along it is
         gap . step, and while no shape is found. None: no step leads on."""
@@ -216,7 +242,9 @@ class DisplacementSolver:
         slope, size = float(gap @ way), self._missed(solution, shift)
         fraction = 1.0
         while fraction > SHORTEST:
-            trial = self._solve(np.maximum(tension + fraction * way, 0.0), solution, stay=fraction > 0.05)
+            ahead, stay = np.maximum(tension + fraction * way, 0.0), fraction > STAYING or self._jumps == 0
+            self._jumps -= not stay
+            trial = self._solve(ahead, solution, stay=stay, held=held)
             if trial.status != 0:
                 fraction *= 0.3
                 continue
@@ -229,39 +257,23 @@ class DisplacementSolver:
         return None
 
     def _solve(
-        self, tension: np.ndarray, guess: _core.Solution | None, *, stay: bool = False
+        self,
+        tension: np.ndarray,
+        guess: _core.Solution | None,
+        *,
+        stay: bool = False,
+        held: float = 1.0,
     ) -> _core.Solution:
-        whole = self._tension.copy()
+        whole = held * self._tension
         whole[self._pulls.index] = tension
         solution = self._trial(whole, guess, stay and guess is not None)
         self._solves += 1
         self._marches += solution.iterations
         return solution
 
-    def _flexibility(self, solution: _core.Solution) -> np.ndarray:
-        """d gap / d tension, (n, n), m/N."""
-        i = self._pulls.index
-        return np.diag(self._pulls.compliance) - self._length_jacobian(solution)[np.ix_(i, i)]
-
-    def _length_jacobian(self, solution: _core.Solution) -> np.ndarray:
-        if hasattr(_core, "length_jacobian"):
-            return _core.length_jacobian(self._prepared, solution)
-        m = len(solution.tension)
-        columns = np.zeros((m, m))
-        for j in self._pulls.index:
-            ends = [(solution.tension[j], solution.tendon_length)]
-            h = 1e-3 * max(float(solution.tension[j]), 0.05)
-            for sign in (1.0, -1.0):
-                moved = solution.tension.copy()
-                moved[j] += sign * h
-                end = self._trial(moved, solution, True)
-                if end.status == 0:
-                    ends.append((moved[j], end.tendon_length))
-            if len(ends) > 1:
-                columns[:, j] = (ends[-1][1] - ends[len(ends) - 2][1]) / (
-                    ends[-1][0] - ends[len(ends) - 2][0]
-                )
-        return columns
+    def _flexibility(self, solution: _core.Solution) -> np.ndarray | None:
+        """d gap / d tension, (n, n), m/N; None at a fold, where lengths jump."""
+        return self._pulls.flexibility(self._prepared, solution)
 
     def _result(self, solution: _core.Solution, stable: bool | None = None) -> Pulled:
         missed = (

@@ -21,8 +21,11 @@ FIRST_STEP, GROWTH = 0.25, 1.6
 
 @dataclass(frozen=True, eq=False)
 class Snap:
-    """A jump to another branch. parameter: where on the path, in points (2.5: halfway between the third and the
-    fourth), to the tolerance asked for; before: the last shape of the old branch; after: the shape landed on."""
+    """A jump to another branch.
+
+    parameter: where on the path, in points (2.5: halfway between the third and the fourth), to the tolerance
+    asked for; before: the last shape of the old branch; after: the shape landed on.
+    """
 
     parameter: float
     before: Shape
@@ -104,7 +107,7 @@ class _Follower:
         return Followed(tuple(shapes), tuple(self._snaps))
 
     def _at(self, t: float) -> _Actuated:
-        k = min(int(math.floor(t)), max(self._count - 2, 0))
+        k = min(math.floor(t), max(self._count - 2, 0))
         part = t - k
         rows = [(r[k] if part == 0.0 else (1.0 - part) * r[k] + part * r[k + 1]) for r in self._rows]
         changed = dict(zip(("tension", "rotation", "translation"), rows, strict=True))

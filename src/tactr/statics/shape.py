@@ -6,14 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
-from tactr.statics.displacement import Pulled
+from tactr.statics.derivatives import Derivatives
+from tactr.statics.displacement import Pulled, is_stable
 from tactr.statics.frames import rotation_matrices, turned_about_z
 from tactr.statics.mechanics import Mechanics
 from tactr.statics.rest import RestState
@@ -75,22 +76,7 @@ class TendonShape:
         return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm{state}>"
 
 
-class TipJacobian(NamedTuple):
-    """Derivatives of the tip: rows are its position (m), then its small rotation (rad), both in world axes.
-
-    tension (6, tendons), per N; rotation (6, tubes), per rad: at the present tensions of all tendons, also of
-    those pulled by displacements. A tendon with a TensionProfile counts per unit of a factor on the whole
-    profile. displacement (6, tendons), per m: the motors of all tendons pulled by displacements held but one,
-    the other tendons at their tension; 0 for slack tendons and for those pulled by a tension. Where a slack
-    tendon is about to be taut it is the derivative on the slack side.
-    """
-
-    tension: np.ndarray
-    rotation: np.ndarray
-    displacement: np.ndarray
-
-
-class Shape(Mechanics):
+class Shape(Mechanics, Derivatives):
     """The shape of a robot under given actuation, or why there is none.
 
     Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,
@@ -212,21 +198,20 @@ class Shape(Mechanics):
         """The same as a rotation matrix, (3, 3)."""
         return rotation_matrices(self.tip_quaternion)
 
-    def tip_jacobian(self) -> TipJacobian:
-        """Exact derivatives of the tip pose with respect to tensions, rotations and displacements."""
-        self._require_convergence()
-        columns = _core.tip_jacobian(self._prepared, self._solution)
-        tension, rotation = np.split(columns, [len(self._base.tendons)], axis=1)
-        displacement = np.zeros_like(tension)
-        if self._pulled is not None:
-            displacement = tension @ self._pulled.tension_jacobian(self._prepared)
-        return TipJacobian(tension, rotation, displacement)
-
     @cached_property
     def stability(self) -> Stability:
-        """Whether the shape is stable, and how far from the limit where it snaps or buckles."""
+        """Whether the shape is stable at its tensions, and how far from the limit where it snaps or buckles."""
         self._require_convergence()
         return stability_of(self._prepared, self._solution)
+
+    @cached_property
+    def stable(self) -> bool:
+        """Whether the shape is stable as it is pulled: motors of tendons with displacements held, the other
+        tendons at their tensions. Held motors can keep what falls over at held tensions (``stability``)."""
+        if self._pulled is None:
+            return self.stability.stable
+        self._require_convergence()
+        return is_stable(self._prepared, self._pulled.pulls, self._solution)
 
     @cached_property
     def potential_energy(self) -> float:

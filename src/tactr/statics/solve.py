@@ -176,7 +176,7 @@ class Prepared:
         translation: Numbers | None,
         displacement: Displacements | None = None,
     ) -> Prepared | _Actuated:
-        """The actuation as arrays; where it replaces a tension profile, another Prepared at that actuation."""
+        """The actuation as arrays; where it replaces a tension profile, another Prepared there."""
         plain = (
             self._is_plain(tension, self._tension, self._least_tension, np.inf)
             and self._is_plain(rotation, self._rotation, -np.inf, np.inf)

@@ -44,11 +44,15 @@ class Stability:
     def __str__(self) -> str:
         """In words: stable or not, the margin, and a warning where there is reason for one."""
         if self.near_limit:
-            return f"stable, margin {self.margin:.3g}: near the limit, a small change may make it snap or buckle"
+            return (
+                f"stable, margin {self.margin:.3g}: near the limit, a small change may make it snap or buckle"
+            )
         if self.stable:
             return f"stable, margin {self.margin:.3g}"
         points = len(self.conjugate_points)
-        ways = f"{points} direction{'' if points == 1 else 's'} of falling energy" if points else "at the limit"
+        ways = (
+            f"{points} direction{'' if points == 1 else 's'} of falling energy" if points else "at the limit"
+        )
         return f"unstable ({ways}): a real robot does not stay in this shape, it snaps or buckles"
 
     def __repr__(self) -> str:

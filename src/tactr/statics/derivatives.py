@@ -1,0 +1,186 @@
+"""Exact derivatives of a shape with respect to actuators, loads and the robot's own parameters.
+
+All come from one more march in dual numbers and the implicit function theorem at the base. A small motion is a
+column of six: shift of the point (m), then rotation (rad). Axes are "world", or "body": those of the material
+frame of the innermost tube at the point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from tactr import _core
+from tactr.errors import RobotError
+from tactr.robot import Robot
+from tactr.robot import _check as check
+from tactr.statics.parameters import actuator_column, rates_of
+
+if TYPE_CHECKING:
+    from tactr.statics.displacement import Pulled
+    from tactr.statics.shape import Shape
+
+Axes = Literal["world", "body"]
+
+
+class Jacobian(NamedTuple):
+    """Derivatives of a point's pose: six rows, its shift (m) and its rotation (rad); k first where there are k points.
+
+    tension (..., 6, tendons), per N; rotation (..., 6, tubes), per rad; translation (..., 6, tubes), per m: at
+    the present tensions of all tendons, also of those pulled by displacements. A tendon with a TensionProfile
+    counts per unit of a factor on the whole profile. displacement (..., 6, tendons), per m: the motors of the
+    other tendons pulled by displacements held; 0 for slack tendons and for those pulled by a tension. Where a
+    slack tendon is about to be taut it is the derivative on the slack side.
+    """
+
+    tension: np.ndarray
+    rotation: np.ndarray
+    translation: np.ndarray
+    displacement: np.ndarray
+
+
+class Derivatives:
+    """What a Shape can say of how it changes."""
+
+    if TYPE_CHECKING:
+        _prepared: _core.PreparedRobot
+        _solution: _core.Solution
+        _pulled: Pulled | None
+
+        @property
+        def robot(self) -> Robot: ...
+
+        @property
+        def tip_orientation(self) -> np.ndarray: ...
+
+        def sample(self, stations: Sequence[float]) -> Shape: ...
+
+        def _require_convergence(self) -> None: ...
+
+    def tip_jacobian(self, *, axes: Axes = "world") -> Jacobian:
+        """Derivatives of the tip with respect to tensions, rotations, translations and displacements.
+
+        The tip is the distal end of the robot, a material point: it moves with its tube. Where a tube's end or a
+        step in its shape meets another breakpoint, the shape has a corner in its translation and the derivative
+        is one-sided: where proximal ends meet each other or the guide's exit, that for withdrawing the tube.
+        Raises NotConverged.
+        """
+        matrix = self._matrix((), actuators=True)
+        return self._split(_turned(matrix, self._frames_at((), axes))[0])
+
+    def jacobian(self, s: float | Sequence[float] | np.ndarray, *, axes: Axes = "world") -> Jacobian:
+        """The same for the points at s, (k,), m from the guide's exit, which stay at their s (k absent for a number)."""
+        places = _places(s)
+        matrix = self._matrix(places, actuators=True)
+        moved = _turned(matrix, self._frames_at(places, axes))[1:]
+        return self._split(moved[0] if np.ndim(s) == 0 else moved)
+
+    def compliance(self, s: float | None = None, *, axes: Axes = "world") -> np.ndarray:
+        """Motion of the point at s per wrench (force in N, moment in N m) at it, (6, 6), both in the same axes.
+
+        s: m from the guide's exit; None for the tip. The wrench acts on the innermost tube there, tensions,
+        rotations and translations held. Symmetric where all loads are dead forces and the shape follows from an
+        energy. Raises NotConverged, RobotError for an s outside the robot.
+        """
+        self._require_convergence()
+        reach = max(tube.tip for tube in self.robot.tubes)
+        at_tip = s is None or s >= reach
+        place = reach if s is None else check.real("s", s, "m", least=0, most=reach)
+        if place == 0.0:
+            return np.zeros((6, 6))
+        places = np.array([] if at_tip else [place])
+        matrix = self._matrix(places, probe=place)[-1]
+        if axes == "world":
+            return matrix
+        frames = self._frames_at(places, axes)
+        return _block(frames[-1]).T @ matrix @ _block(frames[-1])
+
+    def sensitivity(
+        self,
+        parameters: Sequence[str],
+        *,
+        s: float | Sequence[float] | np.ndarray | None = None,
+        axes: Axes = "world",
+    ) -> np.ndarray:
+        """Derivatives with respect to numbers of the robot's description, (6, parameters); (k, 6, ...) at k places s.
+
+        parameters: paths such as "tubes.outer.length", "tubes.outer.material.E", "tubes.inner.precurvature.0.x",
+        "tendons.pull.routing.radius", "loads.0.force.z", "tendons.pull.tension"; each in the unit that it has in
+        the description. The mechanics is differentiated exactly; from the description to the kernel's tables the
+        differences are of 1e-10 (see ``tactr.statics.parameters``). s: m from the guide's exit, None for the tip.
+        Raises NotConverged, RobotError for an unknown path.
+        """
+        self._require_convergence()
+        robot, places = self.robot, np.array([]) if s is None else _places(s)
+        held = {path: actuator_column(robot, path) for path in parameters}
+        rates = [rates_of(robot, path) for path, column in held.items() if column is None]
+        matrix = self._matrix(places, actuators=True, rates=rates)
+        after = iter(range(matrix.shape[-1] - len(rates), matrix.shape[-1]))
+        columns = [next(after) if held[path] is None else held[path] for path in held]
+        order = {path: column for path, column in zip(held, columns, strict=True)}
+        picked = matrix[..., [order[path] for path in parameters]]
+        turned = _turned(picked, self._frames_at(places, axes))
+        if s is None:
+            return turned[0]
+        return turned[1] if np.ndim(s) == 0 else turned[1:]
+
+    def _matrix(
+        self,
+        places: Sequence[float] | np.ndarray,
+        *,
+        actuators: bool = False,
+        probe: float = -1.0,
+        rates: Sequence[_core.PreparedRobot] = (),
+    ) -> np.ndarray:
+        """(1 + k, 6, columns): the tip, then the places in their own order."""
+        self._require_convergence()
+        s = np.asarray(places, dtype=float)
+        reach = max(tube.tip for tube in self.robot.tubes)
+        if s.size and not (np.isfinite(s).all() and s.min() >= 0.0 and s.max() <= reach * (1 + 1e-12)):
+            worst = s[np.argmax(~((s >= 0) & (s <= reach)))]
+            raise RobotError("s", f"{check.show(float(worst), 'm')} is not on the robot", f"0 to {reach:g} m", value=worst)
+        outside = np.flatnonzero(s > 0.0)
+        order = outside[np.argsort(s[outside], kind="stable")]
+        found = _core.sensitivities(
+            self._prepared, self._solution, np.minimum(s[order], reach), False, actuators, probe, list(rates)
+        ).reshape(1 + len(order), 6, -1)
+        matrix = np.zeros((1 + len(s), 6, found.shape[-1]))
+        matrix[0] = found[0]
+        matrix[1 + order] = found[1:]
+        return matrix
+
+    def _split(self, matrix: np.ndarray) -> Jacobian:
+        tendons, tubes = len(self.robot.tendons), len(self.robot.tubes)
+        tension, rotation, translation = np.split(matrix, [tendons, tendons + tubes], axis=-1)
+        if self._pulled is None:
+            return Jacobian(tension, rotation, translation, np.zeros_like(tension))
+        displacement = tension @ self._pulled.tension_jacobian(self._prepared)
+        return Jacobian(tension, rotation, translation, displacement)
+
+    def _frames_at(self, places: Sequence[float] | np.ndarray, axes: Axes) -> np.ndarray | None:
+        """Frames of the innermost tube at the tip, then at the places, (1 + k, 3, 3); None for world axes."""
+        if check.choice("axes", axes, ("world", "body")) == "world":
+            return None
+        frames = [self.tip_orientation]
+        for place in np.asarray(places, dtype=float):
+            tubes = [tube for tube in self.sample([float(place)]).tubes if len(tube.s)]
+            frames.append(tubes[-1].frames[0])
+        return np.array(frames)
+
+
+def _places(s: float | Sequence[float] | np.ndarray) -> np.ndarray:
+    return np.atleast_1d(np.asarray(s, dtype=float))
+
+
+def _block(frame: np.ndarray) -> np.ndarray:
+    return np.kron(np.eye(2), frame)
+
+
+def _turned(matrix: np.ndarray, frames: np.ndarray | None) -> np.ndarray:
+    """Rows (k, 6, columns) from world axes to those of the frames (k, 3, 3)."""
+    if frames is None:
+        return matrix
+    halves = matrix.reshape(len(frames), 2, 3, -1)
+    return np.einsum("kba,khbc->khac", frames, halves).reshape(matrix.shape)

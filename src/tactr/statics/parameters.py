@@ -1,0 +1,135 @@
+"""Numbers of a robot's description by their path, and how the kernel's tables change with them.
+
+The tables are smooth closed forms of the description (EI of diameters and moduli, polynomials of offsets), so
+their rates are taken by Richardson's differences with a step of 1e-3 of the number: to about 1e-11, relative.
+Sections, routings and rest shapes that were fitted to functions change with their own numbers only.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from tactr import _core
+from tactr.errors import RobotError
+from tactr.robot import Robot
+from tactr.statics.assemble import tables
+
+RELATIVE_STEP, LEAST_STEP = 1e-3, 1e-6
+WHOLE_NUMBERS = {  # columns of the tables that hold counts, indices and switches
+    "tubes": [2],
+    "pieces": [1],
+    "tendons": [0, 1, 3, 4],
+    "routing": [2, 3, 4],
+    "profiles": [1],
+    "point_loads": [0, 1],
+    "distributed_loads": [0, 1],
+}
+AXES = {"x": 0, "y": 1, "z": 2}
+Tables = dict[str, np.ndarray]
+
+
+def value_of(robot: Robot, path: str) -> float:
+    """The number at a path, such as "tubes.outer.material.E", in SI units. Raises RobotError."""
+    found: Any = robot
+    steps = path.split(".")
+    for k, step in enumerate(steps):
+        found = _child(found, step, path, steps[:k])
+    if isinstance(found, bool) or not isinstance(found, int | float):
+        raise RobotError(path, f"{found!r} is not a number", "the path of one number of the robot", value=path)
+    return float(found)
+
+
+def with_value(robot: Robot, path: str, value: float) -> Robot:
+    """The robot with another number at a path. Raises RobotError."""
+    value_of(robot, path)
+    return _replaced(robot, path.split("."), value, path)
+
+
+def actuator_column(robot: Robot, path: str) -> int | None:
+    """The Jacobian's column of a tension, rotation or translation; None for any other path."""
+    group, _, rest = path.partition(".")
+    name, _, field = rest.rpartition(".")
+    tendons, tubes = [t.name for t in robot.tendons], [t.name for t in robot.tubes]
+    if group == "tendons" and field == "tension" and name in tendons:
+        value_of(robot, path)
+        return tendons.index(name)
+    if group == "tubes" and field in ("rotation", "translation") and name in tubes:
+        return len(tendons) + tubes.index(name) + (len(tubes) if field == "translation" else 0)
+    return None
+
+
+def rates_of(robot: Robot, path: str) -> _core.PreparedRobot:
+    """d(tables)/d(number at the path), with the layout of the robot's tables."""
+    value, base = value_of(robot, path), tables(robot)
+    step = max(RELATIVE_STEP * abs(value), LEAST_STEP)
+
+    def at(shift: float) -> Tables:
+        return tables(with_value(robot, path, value + shift))
+
+    rates = _differences(at, base, step)
+    for name, columns in WHOLE_NUMBERS.items():
+        rates[name][:, columns] = base[name][:, columns]
+    return _core.PreparedRobot(**{name: np.ascontiguousarray(table) for name, table in rates.items()})
+
+
+def _differences(at: Callable[[float], Tables], base: Tables, step: float) -> Tables:
+    """Central differences of order 4; one-sided ones of the same order where the robot ends on one side."""
+    errors = []
+    for weights in (
+        {-2: 1 / 12, -1: -2 / 3, 1: 2 / 3, 2: -1 / 12},
+        {0: -25 / 12, 1: 4.0, 2: -3.0, 3: 4 / 3, 4: -1 / 4},
+        {0: 25 / 12, -1: -4.0, -2: 3.0, -3: -4 / 3, -4: 1 / 4},
+    ):
+        try:
+            moved = {k: at(k * step) if k else base for k in weights}
+        except RobotError as error:
+            errors.append(error)
+            continue
+        return {name: _weighted(moved, weights, name, base[name], step) for name in base}
+    raise errors[0]
+
+
+def _weighted(
+    moved: dict[int, Tables], weights: dict[int, float], name: str, base: np.ndarray, step: float
+) -> np.ndarray:
+    if any(other[name].shape != base.shape for other in moved.values()):
+        raise RobotError(name, "it is cut into other pieces when the number changes", "a number that keeps them")
+    ends = np.isfinite(base)
+    rates = np.zeros_like(base)
+    rates[ends] = sum(weight * moved[k][name][ends] for k, weight in weights.items()) / step
+    return rates
+
+
+def _child(owner: Any, step: str, path: str, before: list[str]) -> Any:
+    options = _options(owner)
+    if step not in options:
+        place = ".".join(before) or "the robot"
+        raise RobotError(path, f"{place} has no {step!r}", "one of " + ", ".join(options) if options else "no further step", value=path)
+    return options[step][0]
+
+
+def _options(owner: Any) -> dict[str, tuple[Any, Any]]:
+    """What a step of a path can name: (child, its key)."""
+    if isinstance(owner, tuple):
+        named = all(hasattr(item, "name") for item in owner) and owner
+        options = {item.name if named else str(k): (item, k) for k, item in enumerate(owner)}
+        if len(owner) == 3 and not named:
+            options |= {axis: (owner[k], k) for axis, k in AXES.items()}
+        return options
+    if dataclasses.is_dataclass(owner):
+        return {f.name: (getattr(owner, f.name), f.name) for f in dataclasses.fields(owner) if f.init}
+    return {}
+
+
+def _replaced(owner: Any, steps: list[str], value: float, path: str) -> Any:
+    if not steps:
+        return value
+    child, key = _options(owner)[steps[0]]
+    changed = _replaced(child, steps[1:], value, path)
+    if isinstance(owner, tuple):
+        return (*owner[:key], changed, *owner[key + 1 :])
+    return dataclasses.replace(owner, **{key: changed})
