@@ -30,7 +30,7 @@ MOST_STEPS = 40
 SHORTEST = 1e-4  # of a step
 STAYING = 0.05  # a step still shorter may leave its branch,
 MOST_JUMPS = 4  # though a solve that looks for another one costs a hundred others
-LEAST_SHARE = 2e-3  # of the way from no displacement, in one step
+FIRST_SHARE, LEAST_SHARE = 0.125, 2e-3  # of the way from no displacement, in one step
 LARGEST = float(np.finfo(float).max)  # m, for a gap that is not known
 CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibility
 
@@ -184,24 +184,37 @@ class DisplacementSolver:
 
     def _gradually(self, first: _core.Solution) -> _core.Solution:
         """Growing displacements, from those that leave every tendon just without tension, and growing held
-        tensions: these alone may bend the tubes beyond what they can take."""
+        tensions: these alone may bend the tubes beyond what they can take. Where the branch ends or loses its
+        stability it is left for what a cold solve finds there."""
         ahead = np.zeros(len(self._pulls.index))
         solution = self._solve(ahead, None, held=0.0)
         if solution.status != 0:
             return first
         ahead = np.maximum(-self._pulls.gap(solution), 0.0)
-        done, share = 0.0, 0.125
-        while done < 1.0 and share > LEAST_SHARE:
+        done, share, landings = 0.0, FIRST_SHARE, MOST_JUMPS
+        while done < 1.0:
             to = min(1.0, done + share)
-            start = self._solve(solution.tension[self._pulls.index], solution, stay=True, held=to)
-            found = self._newton(start, shift=(1.0 - to) * ahead, held=to)
-            if self._missed(found, (1.0 - to) * ahead) <= self._pulls.tolerance:
+            found = self._carried(solution, to, ahead, stay=True)
+            if found is None and share < LEAST_SHARE and landings > 0:
+                landings -= 1
+                found, share = self._carried(solution, to, ahead, stay=False), FIRST_SHARE
+            if found is not None:
                 solution, done, share = found, to, 1.7 * share
+            elif share < LEAST_SHARE:
+                return first
             else:
                 share *= 0.4
-        if done < 1.0:
-            return first
         return solution
+
+    def _carried(
+        self, solution: _core.Solution, to: float, ahead: np.ndarray, *, stay: bool
+    ) -> _core.Solution | None:
+        """A stable shape at a part of the displacements and held tensions; None: not found."""
+        guess = solution if stay else None
+        start = self._solve(solution.tension[self._pulls.index], guess, stay=stay, held=to)
+        found = self._newton(start, shift=(1.0 - to) * ahead, held=to)
+        met = self._missed(found, (1.0 - to) * ahead) <= self._pulls.tolerance
+        return found if met and self._is_stable(found) else None
 
     def _missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> float:
         if solution.status != 0:
