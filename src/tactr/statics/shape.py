@@ -91,7 +91,7 @@ class Shape:
         solution: _core.Solution,
         *,
         base: Robot,
-        actuation: dict[str, np.ndarray],
+        actuation: dict[str, Any],
         tolerance: float,
         residual_tolerance: float,
         stations: Stations,
