@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from time import perf_counter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -82,8 +82,8 @@ class _Actuated(NamedTuple):
     of them that the base does not have."""
 
     base: Robot
-    arrays: tuple[np.ndarray, ...]
-    changed: dict[str, np.ndarray]
+    arrays: tuple[np.ndarray, np.ndarray, np.ndarray]
+    changed: dict[str, Any]
 
 
 class Prepared:
@@ -173,14 +173,17 @@ class Prepared:
         own = {"tension": self._tension, "rotation": self._rotation, "translation": self._translation}
         arrays = {name: own[name] if array is None else np.array(array) for name, array in given.items()}
         changed = {name: array for name, array in arrays.items() if plain and array is not own[name]}
-        return _Actuated(base, tuple(arrays.values()), changed)
+        return _Actuated(base, (arrays["tension"], arrays["rotation"], arrays["translation"]), changed)
 
     def _solved(self, actuated: _Actuated, guess: Shape | None, *, stay: bool = False) -> Shape:
         """From a guess or from cold; stay: on the guess's branch or not at all."""
         start = perf_counter()
+        tension, rotation, translation = actuated.arrays
         solution = _core.solve(
             self._core,
-            *actuated.arrays,
+            tension,
+            rotation,
+            translation,
             self.tolerance,
             self.residual_tolerance,
             _start(guess),
