@@ -54,6 +54,7 @@ if TYPE_CHECKING:
         Work,
         branches,
         follow,
+        rest_lengths,
         solve,
         work,
     )
@@ -103,6 +104,7 @@ _HOME = {
         "Work",
         "branches",
         "follow",
+        "rest_lengths",
         "solve",
         "work",
     ),
@@ -160,6 +162,7 @@ __all__ = [
     "load",
     "materials",
     "reference",
+    "rest_lengths",
     "save",
     "solve",
     "work",

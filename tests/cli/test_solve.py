@@ -56,11 +56,13 @@ def test_json(run):
         "residual",
         "iterations",
         "discretisation_error_m",
+        "displacement_error_m",
         "solve_time_s",
         "stability",
         "tip",
         "tubes",
         "tendons",
+        "slack",
         "transition_points",
         "centreline",
     }
@@ -187,3 +189,32 @@ def test_a_buckled_rod_near_its_limit_is_pointed_out(run, tmp_path):
     assert stability["margin"] == pytest.approx(math.cos(math.pi / 2 * math.sqrt(0.9)) ** 2, rel=1e-3)
     assert "near the limit" in stability["warning"]
     assert solved(run, "three_tube_c")["stability"]["warning"] is None
+
+
+def test_displacements(run):
+    words = ("two_tube_90", "--displacement", "outer=2 mm", "inner=-1 mm")
+    shape = tactr.solve(examples.load("two_tube_90"), displacement={"outer": 2e-3, "inner": -1e-3})
+    report = solved(run, *words)
+    assert report["slack"] == ["inner"]
+    outer, inner = report["tendons"]
+    assert (outer["given"], outer["displacement_m"], outer["slack"]) == ("displacement", 2e-3, False)
+    assert outer["tension_N"] == pytest.approx(shape.tension[0])
+    assert (inner["tension_N"], inner["slack"]) == (0.0, True)
+    code, out, _ = run("solve", *words)
+    assert code == 0
+    rows = {line.split()[0]: line.split() for line in out.splitlines() if line}
+    assert rows["inner"][2] == "slack" or "slack: inner" in out
+    assert "displacements met" in out
+    assert "displacement (mm)" in out
+
+
+def test_displacements_that_cannot_be(run):
+    code, out, err = run("solve", "two_tube_90", "--displacement", "outer=200 mm")
+    assert (code, out) == (2, "")
+    assert "displacement" in err
+    code, out, err = run("solve", "two_tube_90", "--displacement", "outer=2 mm", "--tension", "outer=3")
+    assert (code, out) == (2, "")
+    assert "not both" in err
+    code, out, err = run("solve", "two_tube_90", "--displacement", "outer=2")
+    assert (code, out) == (2, "")
+    assert "unit" in err

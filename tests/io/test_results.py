@@ -39,6 +39,16 @@ def test_the_arrays_are_those_of_the_shape():
     assert data.attrs["discretisation_error_m"] == shape.discretisation_error
 
 
+def test_displacements_and_slack():
+    shape = tactr.solve(examples.load("two_tube_90"), displacement={"inner": -1e-3})
+    data = shape.to_xarray()
+    assert np.array_equal(data.tendon_motor_tension, shape.tension)
+    assert np.array_equal(data.tendon_displacement, shape.displacement)
+    assert data.tendon_given.values.tolist() == [0, 1]
+    assert data.tendon_slack.values.tolist() == [0, 1]
+    assert "displacement: -1" in data.attrs["robot"]
+
+
 def test_forces_and_energies_are_those_of_the_shape():
     shape = tactr.solve(examples.load("three_tube_ctr"))
     data = shape.to_xarray()

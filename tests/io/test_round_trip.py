@@ -77,6 +77,9 @@ routings = smooth | smooth.map(lambda routing: Piecewise(((0.0, routing), (0.5, 
 tensions = st.floats(0, 1e3) | st.builds(TensionProfile, st.just((0.0, 1 / 3)), st.tuples(positive, positive))
 
 
+pulls = st.one_of(tensions.map(lambda t: {"tension": t}), numbers.map(lambda d: {"displacement": d}))
+
+
 @st.composite
 def robots(draw):
     tube = Tube(
@@ -95,7 +98,10 @@ def robots(draw):
             tube.name,
             draw(routings),
             host=draw(st.sampled_from(["own", "outermost"])),
-            tension=draw(tensions),
+            **draw(pulls),
+            compliance=draw(st.just(0.0) | positive),
+            pretension=draw(st.just(0.0) | positive),
+            rest_length=draw(st.none() | positive),
             end=draw(st.none() | st.floats(0.06, 0.1)),
         )
         for name in tendon_names
@@ -171,3 +177,25 @@ def test_saving_where_one_cannot(tmp_path):
         tactr.save(robot, tmp_path / "missing" / "robot.yaml")
     with pytest.raises(tactr.FileError, match=r"has the ending '.txt'; expected one of .yaml, .yml, .toml"):
         tactr.save(robot, tmp_path / "robot.txt")
+
+
+def test_a_tendon_pulled_by_its_motor():
+    text = """
+tubes: [{name: a, length: 100 mm, section: {kind: rod, diameter: 1 mm}, material: nitinol}]
+tendons:
+  - name: t
+    tube: a
+    routing: {kind: straight, x: 5 mm, y: 0 mm}
+    displacement: 2 mm
+    compliance: 0.1 mm/N
+    pretension: 0.5 N
+    rest_length: 100 mm
+"""
+    text = text.replace("section: {kind: rod, diameter: 1 mm}", "outer_diameter: 1 mm, inner_diameter: 0 mm")
+    (tendon,) = loads(text).tendons
+    assert (tendon.displacement, tendon.compliance) == pytest.approx((2e-3, 1e-4))
+    assert (tendon.pretension, tendon.rest_length) == pytest.approx((0.5, 0.1))
+    with pytest.raises(tactr.FileError, match="a tension or a displacement, not both"):
+        loads(text.replace("displacement: 2 mm", "displacement: 2 mm\n    tension: 1 N"))
+    with pytest.raises(tactr.FileError, match="compliance"):
+        loads(text.replace("0.1 mm/N", "0.1 N/mm"))

@@ -25,6 +25,7 @@ def solve(
     tension: Assignments = [],  # noqa: B006
     rotation: Assignments = [],  # noqa: B006
     translation: Assignments = [],  # noqa: B006
+    displacement: Assignments = [],  # noqa: B006
     tolerance: str | None = None,
     json: bool = False,
     save: Path | None = None,
@@ -33,7 +34,7 @@ def solve(
     """Compute the shape of a robot and report it."""
     from tactr.cli.solve import Request, run_solve
 
-    return run_solve(Request(file, tension, rotation, translation, tolerance, json, save, plot))
+    return run_solve(Request(file, tension, rotation, translation, displacement, tolerance, json, save, plot))
 
 
 @app.command

@@ -34,6 +34,8 @@ Usage: tactr solve [FILE] [OPTIONS]
   --rotation NAME=VALUE... rotations of tubes at their proximal ends, with unit: inner="90 deg"
   --translation NAME=VALUE...
                            positions of their proximal ends, with unit, at most 0: inner="-20 mm"
+  --displacement NAME=VALUE...
+                           what the motors of tendons pull instead of tensions, with unit: left="2 mm"
                            Each may also be given without names: one value for every tendon or tube, in order.
   --tolerance LENGTH       largest discretisation error at the tip, with unit; default "1 um"
 

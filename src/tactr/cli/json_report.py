@@ -12,9 +12,11 @@ def json_report(shape: Any) -> str:
     """JSON text of a shape, SI units (the ending of a key is its unit), world axes.
 
     Always there: robot (name), converged, status, message, residual (largest scaled equation), iterations,
-    discretisation_error_m, solve_time_s. Where converged: stability (stable, margin: 1 unloaded, 0 at the
-    limit, conjugate_points_m, and warning: a text or null), tip (position_m, quaternion_wxyz), tubes (name,
-    length_m, translation_m, rotation_rad, tip_position_m), tendons (name, tube, tension_N, length_m),
+    discretisation_error_m, displacement_error_m (0 without displacements), solve_time_s. Where converged:
+    stability (stable, margin: 1 unloaded, 0 at the limit,
+    conjugate_points_m, and warning: a text or null), tip (position_m, quaternion_wxyz), tubes (name,
+    length_m, translation_m, rotation_rad, tip_position_m), tendons (name, tube, tension_N, length_m,
+    displacement_m, given: "tension" or "displacement", slack), slack (names of the slack ones),
     transition_points (s_m, position_m), centreline (s_m, position_m).
     """
     report = {
@@ -25,6 +27,7 @@ def json_report(shape: Any) -> str:
         "residual": _finite(shape.residual),
         "iterations": int(shape.iterations),
         "discretisation_error_m": _finite(shape.discretisation_error),
+        "displacement_error_m": _finite(shape.displacement_error),
         "solve_time_s": _finite(shape.solve_time),
     }
     text = json.dumps(report | (_geometry(shape) if shape.converged else {}), indent=2, allow_nan=False)
@@ -54,16 +57,32 @@ def _geometry(shape: Any) -> dict[str, Any]:
             {
                 "name": tendon.name,
                 "tube": tendon.tube,
-                "tension_N": _tension(tendon.tension),
+                "tension_N": _tension(tendon.tension, tension),
                 "length_m": float(drawn.length),
+                "displacement_m": pulled,
+                "given": "tension" if tendon.displacement is None else "displacement",
+                "slack": drawn.slack,
             }
-            for tendon, drawn in zip(shape.robot.tendons, shape.tendons, strict=True)
+            for tendon, drawn, tension, pulled in zip(
+                shape.robot.tendons, shape.tendons, shape.tension, _displacements(shape), strict=True
+            )
         ],
+        "slack": list(shape.slack),
         "transition_points": [
             {"s_m": float(s), "position_m": point.tolist()} for s, point in zip(places, points, strict=True)
         ],
         "centreline": {"s_m": shape.s.tolist(), "position_m": shape.centreline.tolist()},
     }
+
+
+def _displacements(shape: Any) -> list[float | None]:
+    """Null where there is no rest state to count from."""
+    from tactr.errors import NotConverged
+
+    try:
+        return shape.displacement.tolist()
+    except NotConverged:
+        return [None] * len(shape.robot.tendons)
 
 
 def _stability(stability: Any) -> dict[str, Any]:
@@ -75,10 +94,10 @@ def _stability(stability: Any) -> dict[str, Any]:
     }
 
 
-def _tension(tension: Any) -> Any:
-    if hasattr(tension, "sigma"):
-        return {"sigma_m": list(tension.sigma), "values_N": list(tension.values)}
-    return float(tension)
+def _tension(given: Any, found: float) -> Any:
+    if hasattr(given, "sigma"):
+        return {"sigma_m": list(given.sigma), "values_N": list(given.values)}
+    return float(found)
 
 
 def _finite(value: float) -> float | None:

@@ -29,6 +29,8 @@ def print_report(shape: Shape, written: Sequence[Path] = ()) -> None:
         f" {shape.solve_time * 1e3:.3g} ms: residual {shape.residual:.1e},"
         f" discretisation error at the tip {shape.discretisation_error * 1e6:.2g} um"
     )
+    if any(tendon.displacement is not None for tendon in robot.tendons):
+        print(_pulled(shape))
     print(_stability(shape))
     if robot.assumed:
         remark = f"{_count(len(robot.assumed), 'value')} assumed, not given by the source: see tactr check"
@@ -67,14 +69,29 @@ def _tubes(robot: Robot) -> list[list[str]]:
 
 
 def _tendons(shape: Shape) -> list[list[str]]:
-    rows = [["tendon", "ends on", "tension (N)", "length (mm)"]]
-    for tendon, drawn in zip(shape.robot.tendons, shape.tendons, strict=True):
-        rows.append([tendon.name, tendon.tube, _tension(tendon), _mm(drawn.length)])
+    robot = shape.robot
+    pulled = any(tendon.displacement is not None for tendon in robot.tendons)
+    rows = [["tendon", "ends on", "tension (N)", "length (mm)", *(["displacement (mm)"] if pulled else [])]]
+    for tendon, drawn, tension in zip(robot.tendons, shape.tendons, shape.tension, strict=True):
+        row = [tendon.name, tendon.tube, _tension(tendon, drawn.slack, tension), _mm(drawn.length)]
+        if pulled:
+            row.append("-" if tendon.displacement is None else _mm(tendon.displacement))
+        rows.append(row)
     return rows
 
 
-def _tension(tendon: Tendon) -> str:
-    return f"{tendon.tension:g}" if isinstance(tendon.tension, (int, float)) else "profile"
+def _tension(tendon: Tendon, slack: bool, found: float) -> str:
+    if not isinstance(tendon.tension, (int, float)):
+        return "profile"
+    if tendon.displacement is None:
+        return f"{tendon.tension:g}"
+    return "slack" if slack else f"{found:.4f}"
+
+
+def _pulled(shape: Shape) -> str:
+    slack = ", ".join(shape.slack)
+    met = f"displacements met to {shape.displacement_error * 1e6:.2g} um"
+    return f"{met}; {f'slack: {slack}' if slack else 'no tendon is slack'}"
 
 
 def _mm(value: float) -> str:

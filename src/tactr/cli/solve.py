@@ -21,6 +21,7 @@ class Request:
     tension: Sequence[str]
     rotation: Sequence[str]
     translation: Sequence[str]
+    displacement: Sequence[str]
     tolerance: str | None
     json: bool
     save: Path | None
@@ -35,6 +36,7 @@ def run_solve(request: Request) -> int:
         tension=read_assignments("tension", request.tension, "force", bare="N"),
         rotation=read_assignments("rotation", request.rotation, "angle"),
         translation=read_assignments("translation", request.translation, "length"),
+        displacement=read_assignments("displacement", request.displacement, "length"),
     )
     from tactr.statics import solve
 

@@ -113,6 +113,21 @@ TENDON = Record(
         "tension": Field(
             Either(PROFILE, FORCE), 'pull, such as "2 N", or a profile along the tendon; default 0'
         ),
+        "displacement": Field(
+            LENGTH,
+            'what its motor pulls instead of a tension, such as "2 mm"; it never pushes: it goes slack',
+        ),
+        "compliance": Field(
+            quantity("compliance"), 'of tendon and transmission in series, such as "0.1 mm/N"; default 0'
+        ),
+        "pretension": Field(
+            FORCE, 'at zero displacement, no loads and all tendons pretensioned, such as "0.5 N"; default 0'
+        ),
+        "rest_length": Field(
+            LENGTH,
+            "its length at zero displacement and its pretension, wherever the tubes are; default: its length "
+            "in the robot without loads at the present rotations and translations",
+        ),
         "end": Field(LENGTH, "arc length of the tube where it ends; default: the tube's tip"),
     },
 )

@@ -8,11 +8,12 @@ dimension `tube_station` belongs.
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tactr.errors import FileError, MissingExtra, RobotError
+from tactr.errors import FileError, MissingExtra, NotConverged, RobotError
 from tactr.io.results_mechanics import add_mechanics, variable
 
 if TYPE_CHECKING:
@@ -111,6 +112,19 @@ def _add_tendons(variables: dict[str, Any], shape: Shape) -> None:
     variables["tendon_length"] = variable(
         "tendon", [t.length for t in tendons], "m", "length from the proximal end of its tube"
     )
+    variables["tendon_motor_tension"] = variable("tendon", shape.tension, "N", "tension at its motor")
+    with suppress(NotConverged):  # no rest state to count from
+        text = "pulled by its motor from the rest state, given or that of its tension"
+        variables["tendon_displacement"] = variable("tendon", shape.displacement, "m", text)
+    for name, values, text in (
+        (
+            "given",
+            [t.displacement is not None for t in tendons],
+            "1: pulled by its displacement, 0: by its tension",
+        ),
+        ("slack", [t.slack for t in tendons], "1: pulled by its displacement, and slack"),
+    ):
+        variables[f"tendon_{name}"] = variable("tendon", np.array(values, dtype=np.int8), "1", text)
     variables["tendon_index"] = variable("tendon_station", index, "1", "tendon of each entry")
     for name, dims, units, text in (
         ("s", "tendon_station", "m", "arc length from the guide's exit"),
@@ -129,6 +143,7 @@ def _attributes(shape: Shape) -> dict[str, Any]:
         "message": shape.message,
         "residual": float(shape.residual),
         "iterations": int(shape.iterations),
+        "displacement_error_m": float(shape.displacement_error),
         "discretisation_error_m": float(shape.discretisation_error),
         "solve_time_s": float(shape.solve_time),
         "robot": _robot_text(shape),

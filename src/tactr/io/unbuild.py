@@ -72,10 +72,24 @@ def _tendon(tendon: Tendon, place: str) -> dict[str, Any]:
             "sigma": write_vector(profile.sigma, "length"),
             "values": write_vector(profile.values, "force"),
         }
-    else:
+    elif tendon.displacement is None:
         data["tension"] = write(tendon.tension, "force")
+    else:
+        data["displacement"] = write(tendon.displacement, "length")
+    data |= _motor(tendon)
     if tendon.end is not None:
         data["end"] = write(tendon.end, "length")
+    return data
+
+
+def _motor(tendon: Tendon) -> dict[str, str]:
+    data = {}
+    if tendon.compliance != 0.0:
+        data["compliance"] = write(tendon.compliance, "compliance")
+    if tendon.pretension != 0.0:
+        data["pretension"] = write(tendon.pretension, "force")
+    if tendon.rest_length is not None:
+        data["rest_length"] = write(tendon.rest_length, "length")
     return data
 
 

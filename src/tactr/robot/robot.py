@@ -12,12 +12,13 @@ from tactr.errors import RobotError
 from tactr.robot import _check as check
 from tactr.robot._consistency import check_robot
 from tactr.robot.load import LOADS, Load
-from tactr.robot.tendon import Tendon, TensionProfile, plain_tension
+from tactr.robot.tendon import Tendon, TensionProfile, both_given, plain_displacement, plain_tension
 from tactr.robot.tube import Tube, plain_rotation, plain_translation
 
 MOST_TUBES = 8
 
 Numbers = Mapping[str, float] | Sequence[float] | np.ndarray
+Displacements = Mapping[str, float | None] | Sequence[float | None] | np.ndarray
 Tensions = Mapping[str, float | TensionProfile] | Sequence[float | TensionProfile] | np.ndarray
 
 
@@ -97,16 +98,23 @@ class Robot:
         tension: Tensions | None = None,
         rotation: Numbers | None = None,
         translation: Numbers | None = None,
+        displacement: Displacements | None = None,
     ) -> Robot:
-        """A robot with other tensions (N) of its tendons, rotations (rad) or translations (m) of its tubes.
+        """A robot with other tensions (N) or displacements (m) of its tendons, or other rotations (rad) or
+        translations (m) of its tubes.
 
         Each is a mapping from names to values, which leaves the others as they are, or a sequence of one
-        value for every tendon or tube in order. RobotError names the wrong one.
+        value for every tendon or tube in order. A tendon given a tension is no longer pulled by a
+        displacement, nor one given a displacement by a tension; None or NaN as its displacement leaves it to
+        its tension. RobotError names the wrong one.
         """
         tubes = list(self.tubes)
         tendons = list(self.tendons)
         if tension is not None:
-            _actuate(tendons, "tendon", "tension", tension, plain_tension)
+            _actuate(tendons, "tendon", "tension", tension, plain_tension, displacement=None)
+        if displacement is not None:
+            fresh = [] if tension is None else [k for k, _ in _pairs(tendons, "tendon", "tension", tension)]
+            _displace(tendons, displacement, fresh)
         if rotation is not None:
             _actuate(tubes, "tube", "rotation", rotation, plain_rotation)
         if translation is not None:
@@ -126,6 +134,8 @@ def _count(parts: Sequence[object], kind: str) -> str:
 
 
 def _show_tension(tendon: Tendon) -> str:
+    if tendon.displacement is not None:
+        return f"pulled {tendon.displacement * 1e3:.4g} mm"
     return "(profile)" if isinstance(tendon.tension, TensionProfile) else f"{tendon.tension:.4g} N"
 
 
@@ -147,14 +157,39 @@ def _copy(part: Any, **changes: object) -> Any:
     return clone
 
 
-def _actuate(parts: list[Any], kind: str, field: str, values: Any, plain: Callable[[object], Any]) -> None:
+def _actuate(
+    parts: list[Any], kind: str, field: str, values: Any, plain: Callable[[object], Any], **also: object
+) -> None:
     for k, value in _pairs(parts, kind, field, values):
         try:
-            parts[k] = _copy(parts[k], **{field: plain(value)})
+            parts[k] = _copy(parts[k], **{field: plain(value)}, **also)
         except RobotError as error:
-            placed = error.under(f"{kind}s[{k}]")
-            placed.owner = f"{kind.capitalize()} {parts[k].name!r}"
-            raise placed from None
+            raise _placed(error, parts[k], kind, k) from None
+
+
+def _placed(error: RobotError, part: Any, kind: str, k: int) -> RobotError:
+    placed = error.under(f"{kind}s[{k}]")
+    placed.owner = f"{kind.capitalize()} {part.name!r}"
+    return placed
+
+
+def _displace(tendons: list[Any], values: Any, fresh: Sequence[int]) -> None:
+    """fresh: the tendons given a tension together with the displacements."""
+    for k, value in _pairs(tendons, "tendon", "displacement", values):
+        tendon = tendons[k]
+        try:
+            displacement = plain_displacement(value)
+            pulled = tendon.tension != 0.0
+            if displacement is not None and pulled and (k in fresh or _has_profile(tendon)):
+                raise both_given("displacement", value)
+        except RobotError as error:
+            raise _placed(error, tendon, "tendon", k) from None
+        tension = tendon.tension if displacement is None else 0.0
+        tendons[k] = _copy(tendon, displacement=displacement, tension=tension)
+
+
+def _has_profile(tendon: Tendon) -> bool:
+    return isinstance(tendon.tension, TensionProfile)
 
 
 def _pairs(parts: list[Any], kind: str, field: str, values: Any) -> list[tuple[int, Any]]:

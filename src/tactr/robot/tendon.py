@@ -1,4 +1,4 @@
-"""Tendons and their tension."""
+"""Tendons, and what pulls them: a tension, or a displacement at the motor."""
 
 from __future__ import annotations
 
@@ -61,9 +61,21 @@ class Tendon:
     that tube's own arc length sigma. host: "own" when it runs in that tube's lumen (the published approach
     B), "outermost" when disks on the outermost tube present guide it (approach A). Each host reads the path
     in its own material frame: where the host changes between tubes turned against each other, the path jumps
-    sideways, and the tendon's pull beyond, force and moment, passes to the end of the outer one. tension: N,
-    at least 0, or a TensionProfile. end: sigma in m where it is fixed; None for the tube's distal end. Raises
-    RobotError.
+    sideways, and the tendon's pull beyond, force and moment, passes to the end of the outer one. end: sigma
+    in m where it is fixed; None for the tube's distal end. Raises RobotError.
+
+    It is pulled by a tension (N, at least 0, or a TensionProfile), or by a displacement (m, positive pulls,
+    None: none) of its motor, which rides on the proximal end of its tube. Under a displacement d its tension
+    T and its length l in the robot obey
+
+        l_rest - l + compliance (T - pretension) = d  where T > 0;  T = 0 (slack) where it exceeds d
+
+    compliance: m/N, at least 0, of tendon and transmission in series. pretension: N, at least 0, at d = 0 in
+    the rest state: no loads, every tendon of the robot at its pretension. l_rest: rest_length, m, where that
+    is given; otherwise the length in the rest state at the present rotations and translations of the tubes,
+    as if the motors were zeroed there. Tubes that turn or move then pull no tendon in an unloaded robot; a
+    tendon once tied, whose motor stays where it is, has the rest_length of where it was tied (see
+    ``tactr.rest_lengths``), and its tension changes when curved tubes turn or move.
     """
 
     name: str
@@ -72,6 +84,10 @@ class Tendon:
     _: KW_ONLY
     host: Host = "own"
     tension: float | TensionProfile = 0.0
+    displacement: float | None = None
+    compliance: float = 0.0
+    pretension: float = 0.0
+    rest_length: float | None = None
     end: float | None = None
 
     def __post_init__(self) -> None:
@@ -80,6 +96,13 @@ class Tendon:
             check.store(self, name=name, tube=check.name("tube", self.tube), host=_host(self.host))
             _check_routing(self.routing)
             check.store(self, tension=plain_tension(self.tension))
+            check.store(self, displacement=plain_displacement(self.displacement))
+            check.store(self, compliance=check.real("compliance", self.compliance, "m/N", least=0))
+            check.store(self, pretension=check.real("pretension", self.pretension, "N", least=0))
+            if self.rest_length is not None:
+                check.store(self, rest_length=check.real("rest_length", self.rest_length, "m", above=0))
+            if self.displacement is not None and self.tension != 0.0:
+                raise both_given("displacement", self.displacement)
             if self.end is not None:
                 check.store(self, end=check.real("end", self.end, "m", above=0))
 
@@ -106,3 +129,17 @@ def plain_tension(value: object) -> float | TensionProfile:
     if isinstance(value, TensionProfile):
         return value
     return check.real("tension", value, "N", least=0, hint="a tendon cannot push")
+
+
+def plain_displacement(value: object) -> float | None:
+    """A displacement in m, checked; None, also for NaN, where there is none."""
+    if value is None or (isinstance(value, float | np.floating) and np.isnan(value)):
+        return None
+    return check.real("displacement", value, "m")
+
+
+def both_given(field: str, value: object) -> RobotError:
+    """The error for a tendon that is pulled in two ways."""
+    return RobotError(
+        field, "the tendon has a tension, too", "a tension or a displacement, not both", value=value
+    )

@@ -1,9 +1,10 @@
 """Statics: from a robot and its actuation to its shape, over the C++ kernel."""
 
 from tactr.statics.contact import Contact, GuideReaction, PointContacts
-from tactr.statics.mechanics import ActuatorForces
 from tactr.statics.follow import Followed, Snap, follow
 from tactr.statics.derivatives import Jacobian
+from tactr.statics.mechanics import ActuatorForces
+from tactr.statics.rest import rest_lengths
 from tactr.statics.shape import Shape, TendonShape, TubeShape
 from tactr.statics.solve import Prepared, branches, solve
 from tactr.statics.stability import Stability
@@ -27,6 +28,7 @@ __all__ = [
     "Work",
     "branches",
     "follow",
+    "rest_lengths",
     "solve",
     "work",
 ]

@@ -47,6 +47,13 @@ def _at(robot: Robot, point: object, k: int) -> Robot:
         moved = robot.with_actuation(**point)
     except RobotError as error:
         raise error.under(f"path[{k}]") from None
+    for j, tendon in enumerate(moved.tendons):
+        if tendon.displacement is not None:
+            raise RobotError(
+                f"path[{k}]",
+                f"tendons[{j}] is pulled by a displacement",
+                "tensions: a path is followed at these",
+            )
     for own, other in zip(robot.tendons, moved.tendons, strict=True):
         profiled = isinstance(own.tension, TensionProfile) or isinstance(other.tension, TensionProfile)
         if profiled and own.tension != other.tension:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,11 +14,13 @@ from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
 from tactr.statics.derivatives import Derivatives
+from tactr.statics.displacement import Pulled
 from tactr.statics.frames import rotation_matrices, turned_about_z
 from tactr.statics.mechanics import Mechanics
+from tactr.statics.rest import RestState
 from tactr.statics.stability import Stability, stability_of
 from tactr.statics.stations import Stations, station_places
-from tactr.statics.status import Status, explain, status_of
+from tactr.statics.status import Status, explain, status_of, told_with_pulls
 
 if TYPE_CHECKING:
     import xarray
@@ -54,7 +57,9 @@ class TendonShape:
     """One tendon along the stations where it runs outside the guide, k of them.
 
     name; tube: where it ends; s (k,) m; path (k, 3) m, world axes; tension (k,) N; length: m, of the
-    deformed tendon from its tube's proximal end to its termination.
+    deformed tendon from its tube's proximal end to its termination; displacement: m, what its motor pulls,
+    None where it is pulled by a tension (see ``Shape.displacement``); slack: it has a displacement, and no
+    tension.
     """
 
     name: str
@@ -63,17 +68,20 @@ class TendonShape:
     path: np.ndarray
     tension: np.ndarray
     length: float
+    displacement: float | None = None
+    slack: bool = False
 
     def __repr__(self) -> str:
-        return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm>"
+        state = ", slack" if self.slack else ""
+        return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm{state}>"
 
 
 class Shape(Mechanics, Derivatives):
     """The shape of a robot under given actuation, or why there is none.
 
     Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,
-    discretisation_error, tolerance, solve_time. The geometry raises NotConverged unless converged. World
-    frame: z along the guide, which the robot leaves at s = 0.
+    discretisation_error, tolerance, solve_time, displacement_error. The geometry raises NotConverged unless
+    converged. World frame: z along the guide, which the robot leaves at s = 0.
     """
 
     def __init__(
@@ -87,6 +95,8 @@ class Shape(Mechanics, Derivatives):
         residual_tolerance: float,
         stations: Stations,
         solve_time: float,
+        pulled: Pulled | None = None,
+        rest: Callable[[], RestState],
     ) -> None:
         self.tolerance = tolerance
         self.residual_tolerance = residual_tolerance
@@ -96,6 +106,8 @@ class Shape(Mechanics, Derivatives):
         self._base = base
         self._actuation = actuation
         self._stations = stations
+        self._pulled = pulled
+        self._rest = rest
 
     @cached_property
     def robot(self) -> Robot:
@@ -105,17 +117,19 @@ class Shape(Mechanics, Derivatives):
     @property
     def status(self) -> Status:
         """How the solve ended."""
-        return status_of(self._solution)
+        return status_of(self._solution, self._pulled)
 
     @property
     def converged(self) -> bool:
-        """True when every scaled residual and the discretisation error are below their tolerances."""
-        return self._solution.status == 0
+        """True when every scaled residual, the discretisation error and what is missing in displacements are
+        below their tolerances."""
+        return self._solution.status == 0 and (self._pulled is None or self._pulled.met)
 
     @property
     def message(self) -> str:
         """What happened; for a failure its cause and remedy."""
-        return explain(self.status, self._solution, self.tolerance)
+        text = explain(self.status, self._solution, self.tolerance)
+        return text if self._pulled is None else told_with_pulls(text, self.status, self._pulled, self._base)
 
     @property
     def residual(self) -> float:
@@ -125,7 +139,42 @@ class Shape(Mechanics, Derivatives):
     @property
     def iterations(self) -> int:
         """Marches with derivatives that the solve took."""
-        return self._solution.iterations
+        return self._solution.iterations if self._pulled is None else self._pulled.marches
+
+    @property
+    def displacement_error(self) -> float:
+        """What is missing in the displacement of a tendon, at most, m: a taut tendon's motor elsewhere than
+        asked for, or a slack one's beyond. A tenth of ``tolerance`` is allowed; 0 without displacements."""
+        return 0.0 if self._pulled is None else float(self._pulled.missed.max())
+
+    @property
+    def slack(self) -> tuple[str, ...]:
+        """Names of the tendons pulled by a displacement that have no tension."""
+        self._require_convergence()
+        return () if self._pulled is None else self._pulled.slack(self._base)
+
+    @property
+    def tension(self) -> np.ndarray:
+        """Tension of every tendon at its motor, (tendons,), N; 1 for a TensionProfile."""
+        self._require_convergence()
+        return self._solution.tension
+
+    @cached_property
+    def displacement(self) -> np.ndarray:
+        """What the motor of every tendon pulls, (tendons,), m: as given, or for one pulled by a tension the
+        displacement that goes with it, rest length - length + compliance (tension - pretension)."""
+        self._require_convergence()
+        robot, rest = self.robot, self._rest()
+        rotation, translation = (
+            np.array([getattr(tube, name) for tube in robot.tubes]) for name in ("rotation", "translation")
+        )
+        lengths = rest.lengths(rotation, translation, needed=np.ones(len(robot.tendons), dtype=bool))
+        compliance = np.array([tendon.compliance for tendon in robot.tendons])
+        pull = (
+            lengths - self._solution.tendon_length + compliance * (self._solution.tension - rest.pretension)
+        )
+        given = [tendon.displacement for tendon in robot.tendons]
+        return np.array([own if asked is None else asked for own, asked in zip(pull, given, strict=True)])
 
     @property
     def discretisation_error(self) -> float:
@@ -213,6 +262,8 @@ class Shape(Mechanics, Derivatives):
             residual_tolerance=self.residual_tolerance,
             stations=station_places(self.robot, stations),
             solve_time=self.solve_time,
+            pulled=self._pulled,
+            rest=self._rest,
         )
 
     def plot(self, path: str | Path | None = None) -> Figure:
@@ -287,4 +338,6 @@ class Shape(Mechanics, Derivatives):
             path=self.centreline[here] + offset,
             tension=records[here, 3],
             length=float(self._solution.tendon_length[j]),
+            displacement=tendon.displacement,
+            slack=tendon.displacement is not None and bool(self._solution.tension[j] == 0.0),
         )

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cached_property, partial
 from time import perf_counter
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tactr import _core
-from tactr.errors import RobotError
+from tactr.errors import NotConverged, RobotError
 from tactr.robot import Robot, Tendon, TensionProfile, Tube
 from tactr.robot._consistency import LEAST_REACH
 from tactr.robot.load import Load
-from tactr.robot.robot import Numbers, Tensions
+from tactr.robot.robot import Displacements, Numbers, Tensions
 from tactr.statics.assemble import assemble, base_tension
+from tactr.statics.displacement import LARGEST, MET_SHARE, DisplacementSolver, Pulled, Pulls
+from tactr.statics.rest import RestState
 from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
 
@@ -29,6 +32,7 @@ def solve(
     tension: Tensions | None = None,
     rotation: Numbers | None = None,
     translation: Numbers | None = None,
+    displacement: Displacements | None = None,
     loads: Sequence[Load] | None = None,
     guess: Shape | None = None,
     tolerance: float = 1e-6,
@@ -36,17 +40,20 @@ def solve(
 ) -> Shape:
     """The quasi-static shape of a robot. A result always comes back: look at ``converged`` and ``message``.
 
-    tension: N, by tendon; rotation: rad, translation: m <= 0, by tube; each a mapping from names or a
-    sequence in order, and what is left out stays as the robot has it. loads: replace the robot's. guess: a
-    neighbouring shape of the same robot, whose branch is kept, stable or not; without one, an unstable
-    equilibrium is exchanged for a stable one where one is found. tolerance: discretisation error at the tip,
-    m. stations: their number, spread evenly over the length outside the guide, or s in m, ascending. Raises
-    RobotError for a wrong actuation.
+    tension: N, by tendon; rotation: rad, translation: m <= 0, by tube; displacement: m, by tendon, what its
+    motor pulls instead of a tension (see ``Tendon``; None or NaN: nothing, its tension counts); each a
+    mapping from names or a sequence in order, and what is left out stays as the robot has it. loads: replace
+    the robot's. guess: a neighbouring shape of the same robot, whose branch is kept, stable or not; without
+    one, an unstable equilibrium is exchanged for a stable one where one is found. tolerance: discretisation
+    error at the tip, m; a tenth of it may be missing in a displacement. stations: their number, spread evenly
+    over the length outside the guide, or s in m, ascending. Raises RobotError for a wrong actuation.
     """
     if loads is not None:
         robot = robot.replace(loads=tuple(loads))
-    if tension is not None or rotation is not None or translation is not None:
-        robot = robot.with_actuation(tension=tension, rotation=rotation, translation=translation)
+    if any(given is not None for given in (tension, rotation, translation, displacement)):
+        robot = robot.with_actuation(
+            tension=tension, rotation=rotation, translation=translation, displacement=displacement
+        )
     return Prepared(robot, tolerance=tolerance, stations=stations).solve(guess=guess)
 
 
@@ -78,12 +85,13 @@ def branches(
 
 
 class _Actuated(NamedTuple):
-    """The robot at an actuation: what it came from, arrays of tension, rotation and translation, and those
-    of them that the base does not have."""
+    """The robot at an actuation: what it came from, arrays of tension, rotation and translation, what of the
+    actuation the base does not have, and displacements, NaN where there is none, or None without any."""
 
     base: Robot
     arrays: tuple[np.ndarray, np.ndarray, np.ndarray]
     changed: dict[str, Any]
+    displacement: np.ndarray | None = None
 
 
 class Prepared:
@@ -109,7 +117,13 @@ class Prepared:
         self._translation = _translations(robot)
         profiled = [isinstance(tendon.tension, TensionProfile) for tendon in robot.tendons]
         self._least_tension = np.where(profiled, np.inf, 0.0)  # a profile is not replaced by a number unseen
+        self._displacement = _displacements(robot)
+        self._compliance = np.array([tendon.compliance for tendon in robot.tendons], dtype=float)
         self._least_translation = np.array([-_innermost_place(robot, tube) for tube in robot.tubes])
+
+    @cached_property
+    def _rest(self) -> RestState:
+        return RestState(self.robot, self._core, self.tolerance, self.residual_tolerance)
 
     def __repr__(self) -> str:
         return f"<Prepared {self.robot!r}, tolerance {self.tolerance:.1e} m>"
@@ -120,10 +134,11 @@ class Prepared:
         tension: Tensions | None = None,
         rotation: Numbers | None = None,
         translation: Numbers | None = None,
+        displacement: Displacements | None = None,
         guess: Shape | None = None,
     ) -> Shape:
         """As ``tactr.solve``, for this robot."""
-        actuated = self._actuated(tension, rotation, translation)
+        actuated = self._actuated(tension, rotation, translation, displacement)
         if isinstance(actuated, Prepared):
             return actuated.solve(guess=guess)
         return self._solved(actuated, guess)
@@ -145,24 +160,33 @@ class Prepared:
 
     def _found(self, actuated: _Actuated, samples: int) -> list[Shape]:
         """All equilibria that a search finds; samples 0: as many as fit the number of unknowns."""
+        if actuated.displacement is not None:
+            raise RobotError(
+                "displacement", "branches are searched at held tensions", "tensions of all tendons"
+            )
         start = perf_counter()
         found = _core.branches(self._core, *actuated.arrays, self.tolerance, self.residual_tolerance, samples)
         elapsed = perf_counter() - start
         return [self._shape(actuated, solution, elapsed) for solution in found]
 
     def _actuated(
-        self, tension: Tensions | None, rotation: Numbers | None, translation: Numbers | None
+        self,
+        tension: Tensions | None,
+        rotation: Numbers | None,
+        translation: Numbers | None,
+        displacement: Displacements | None = None,
     ) -> Prepared | _Actuated:
         """The actuation as arrays; where it replaces a tension profile, another Prepared there."""
         plain = (
             self._is_plain(tension, self._tension, self._least_tension, np.inf)
             and self._is_plain(rotation, self._rotation, -np.inf, np.inf)
             and self._is_plain(translation, self._translation, self._least_translation, 0.0)
+            and self._is_plain_displacement(displacement, tension)
         )
         given = {"tension": tension, "rotation": rotation, "translation": translation}
         base = self.robot
         if not plain:
-            base = self.robot.with_actuation(**given)
+            base = self.robot.with_actuation(**given, displacement=displacement)
             if any(map(_differs_in_profile, self.robot.tendons, base.tendons)):
                 return Prepared(base, tolerance=self.tolerance, stations=self._given_stations)
             given = {
@@ -170,28 +194,58 @@ class Prepared:
                 "rotation": _rotations(base),
                 "translation": _translations(base),
             }
+            displacement = _displacements(base)
         own = {"tension": self._tension, "rotation": self._rotation, "translation": self._translation}
         arrays = {name: own[name] if array is None else np.array(array) for name, array in given.items()}
         changed = {name: array for name, array in arrays.items() if plain and array is not own[name]}
-        return _Actuated(base, (arrays["tension"], arrays["rotation"], arrays["translation"]), changed)
+        if plain and displacement is not None:
+            changed["displacement"] = displacement = np.array(displacement)
+        elif plain and tension is None:
+            displacement = self._displacement  # a fresh tension takes over from a displacement
+        every = arrays["tension"], arrays["rotation"], arrays["translation"]
+        return _Actuated(base, every, changed, _without_nothing(displacement))
 
     def _solved(self, actuated: _Actuated, guess: Shape | None, *, stay: bool = False) -> Shape:
         """From a guess or from cold; stay: on the guess's branch or not at all."""
         start = perf_counter()
-        tension, rotation, translation = actuated.arrays
-        solution = _core.solve(
-            self._core,
-            tension,
-            rotation,
-            translation,
-            self.tolerance,
-            self.residual_tolerance,
-            _start(guess),
-            stay=stay,
-        )
+        if actuated.displacement is not None:
+            pulled = self._pulled(actuated, actuated.displacement, guess)
+            return self._shape(actuated, pulled.solution, perf_counter() - start, pulled)
+        solution = self._at_tensions(actuated, actuated.arrays[0], _start(guess), stay)
         return self._shape(actuated, solution, perf_counter() - start)
 
-    def _shape(self, actuated: _Actuated, solution: _core.Solution, elapsed: float) -> Shape:
+    def _at_tensions(
+        self, actuated: _Actuated, tension: np.ndarray, guess: _core.Solution | None, stay: bool
+    ) -> _core.Solution:
+        _, rotation, translation = actuated.arrays
+        tolerances = self.tolerance, self.residual_tolerance
+        return _core.solve(self._core, tension, rotation, translation, *tolerances, guess, stay=stay)
+
+    def _pulled(self, actuated: _Actuated, displacement: np.ndarray, guess: Shape | None) -> Pulled:
+        """Tensions from displacements, NaN for tendons at their tension: from a guess, then from cold."""
+        given = ~np.isnan(displacement)
+        index, compliance = np.flatnonzero(given), self._compliance[given]
+        rest, asked, allowed = self._rest, displacement[given], MET_SHARE * self.tolerance
+        try:
+            lengths = rest.lengths(*actuated.arrays[1:], needed=given)[given]
+        except NotConverged:
+            unknown = Pulls(index, asked, compliance, np.zeros(len(index)), allowed)
+            missed = np.full(len(index), LARGEST)
+            return Pulled(unknown, rest.solution, missed, 0, rest.solution.iterations, rested=False)
+        pulls = Pulls(index, asked, compliance, lengths - compliance * rest.pretension[given], allowed)
+        solver = DisplacementSolver(
+            self._core, partial(self._at_tensions, actuated), pulls, actuated.arrays[0]
+        )
+        near = _start(guess)
+        if near is not None and len(near.tension) == len(displacement):
+            found = solver.from_guess(near)
+            if found.met:
+                return found
+        return solver.from_cold()
+
+    def _shape(
+        self, actuated: _Actuated, solution: _core.Solution, elapsed: float, pulled: Pulled | None = None
+    ) -> Shape:
         moved = actuated.arrays[2] is not self._translation
         return Shape(
             self._core,
@@ -202,7 +256,21 @@ class Prepared:
             residual_tolerance=self.residual_tolerance,
             stations=self._given_stations if moved else self._stations,
             solve_time=elapsed,
+            pulled=pulled,
+            rest=lambda: self._rest,
         )
+
+    def _is_plain_displacement(self, given: object, tension: object) -> bool:
+        """As _is_plain; NaN is plain, a tendon with two ways to be pulled is not."""
+        if given is None:
+            return True
+        own = self._tension
+        if not (isinstance(given, np.ndarray) and given.dtype == np.float64 and given.shape == own.shape):
+            return False
+        pulled = ~np.isnan(given)
+        fresh = tension if isinstance(tension, np.ndarray) else 0.0 * own
+        fits = np.isfinite(given) & (fresh == 0.0) & (self._least_tension == 0.0)
+        return bool(fits[pulled].all())
 
     @staticmethod
     def _is_plain(given: object, own: np.ndarray, above: float | np.ndarray, most: float) -> bool:
@@ -220,6 +288,16 @@ def _start(guess: Shape | None) -> _core.Solution | None:
 
 def _tensions(robot: Robot) -> np.ndarray:
     return np.array([base_tension(tendon) for tendon in robot.tendons], dtype=float)
+
+
+def _displacements(robot: Robot) -> np.ndarray | None:
+    """By tendon, NaN for those pulled by a tension; None where all are."""
+    given = [np.nan if tendon.displacement is None else tendon.displacement for tendon in robot.tendons]
+    return _without_nothing(np.array(given, dtype=float))
+
+
+def _without_nothing(displacement: np.ndarray | None) -> np.ndarray | None:
+    return None if displacement is None or np.isnan(displacement).all() else displacement
 
 
 def _rotations(robot: Robot) -> np.ndarray:

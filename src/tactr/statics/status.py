@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from tactr import _core
 
+if TYPE_CHECKING:
+    from tactr.robot import Robot
+    from tactr.statics.displacement import Pulled
+
 
 class Status(str, Enum):
-    """How a solve ended; only CONVERGED and UNSTABLE carry a shape.
+    """How a solve ended; only CONVERGED and UNSTABLE carry a shape. NOT_MET: tensions that meet the
+    displacements were not found.
 
     UNSTABLE: from cold, an equilibrium was found, but no stable one. A solve from a guess stays on its
     branch and does not look: see ``Shape.stability``.
@@ -21,6 +27,7 @@ class Status(str, Enum):
     STALLED = "stalled"
     TOO_COARSE = "too coarse"
     COLLAPSED = "collapsed"
+    NOT_MET = "displacement not met"
 
 
 _BY_CODE = (
@@ -34,9 +41,13 @@ UNSTABLE = 2  # the kernel's code
 KINK = 0.1  # length of a pulled tendon per length of tube, below which the tube is bent round the tendon
 
 
-def status_of(solution: _core.Solution) -> Status:
-    """The kernel's status code as a Status."""
+def status_of(solution: _core.Solution, pulled: Pulled | None = None) -> Status:
+    """The kernel's status code as a Status, and whether displacements were met."""
     status = _BY_CODE[solution.status]
+    if pulled is not None and status is Status.CONVERGED:
+        if not pulled.met:
+            return Status.NOT_MET
+        return Status.UNSTABLE if pulled.stable is False else status
     if status is Status.CONVERGED and solution.stability == UNSTABLE:
         return Status.UNSTABLE
     if status is Status.NO_SECTION_EQUILIBRIUM and solution.shortest_tendon < KINK:
@@ -52,7 +63,30 @@ def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
             f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m "
             f"at the tip{_remark(status, solution)}"
         )
-    return _FAILURES[status].format(s=solution, tolerance=tolerance)
+    return _FAILURES[status].format(s=solution, tolerance=tolerance) if status in _FAILURES else ""
+
+
+def told_with_pulls(text: str, status: Status, pulled: Pulled, robot: Robot) -> str:
+    """The text of a solve under displacements: which tendons are slack, or which displacement is not met."""
+    if status in (Status.CONVERGED, Status.UNSTABLE):
+        slack = ", ".join(map(repr, pulled.slack(robot)))
+        held = f"displacements met to {float(pulled.missed.max()):.1e} m"
+        return f"{text}; {held}, {f'slack: {slack}' if slack else 'no tendon slack'}"
+    if not pulled.rested:
+        return f"the rest state, from which displacements count, was not found: {text}"
+    if status is not Status.NOT_MET:
+        return f"at the tensions tried for the displacements, {text}"
+    worst = int(pulled.missed.argmax())
+    names = [robot.tendons[j].name for j in pulled.pulls.index]
+    tensions = ", ".join(
+        f"{name} {tension:.3g} N" for name, tension in zip(names, pulled.tension, strict=True)
+    )
+    return (
+        f"no tensions were found that meet the displacements: {names[worst]!r} misses its own of "
+        f"{pulled.pulls.displacement[worst] * 1e3:.4g} mm by {pulled.missed[worst] * 1e3:.2g} mm at the best "
+        f"tensions found ({tensions}). Displacements that work against each other compress the tubes: pull less, give "
+        "the tendons their compliance, check the units; or start from a neighbouring shape with guess=."
+    )
 
 
 def _remark(status: Status, solution: _core.Solution) -> str:
