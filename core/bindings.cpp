@@ -235,7 +235,7 @@ nb::object sensitivities(const PreparedRobot& robot, const tactr::Solution& solu
     bool regular = false;
     {
         nb::gil_scoped_release release;
-        regular = tactr::Sensitivity(robot, solution, request).find(found);
+        regular = tactr::find_sensitivities(robot, solution, request, found);
     }
     if (!regular) throw std::runtime_error("the solution has no derivatives: it is singular");
     const size_t shape[2] = {static_cast<size_t>(found.rows), static_cast<size_t>(found.columns)};
@@ -247,7 +247,7 @@ nb::object length_jacobian(const PreparedRobot& robot, const tactr::Solution& so
     tactr::SensitivityRequest request;
     request.lengths = true;
     tactr::Sensitivities found;
-    if (!tactr::Sensitivity(robot, solution, request).find(found))
+    if (!tactr::find_sensitivities(robot, solution, request, found))
         throw std::runtime_error("the solution has no derivatives: it is singular");
     const size_t m = robot.tendons.size(), shape[2] = {m, m};
     std::vector<double> square;

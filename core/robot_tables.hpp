@@ -1,5 +1,6 @@
 // A robot that owns its arrays, and the same robot with derivatives along directions in its own constants.
 #pragma once
+#include <cstddef>
 #include <vector>
 
 #include "robot.hpp"
@@ -81,10 +82,10 @@ template <class C> DistributedLoadOf<C> blank(const DistributedLoad& l) { return
 template <class D, template <class> class Row>
 void lift(const RobotTables<double>& base, const std::vector<const RobotTables<double>*>& rates,
           std::vector<Row<double>> RobotTables<double>::*table, std::vector<Row<D>>& out) {
-    for (size_t i = 0; i < (base.*table).size(); ++i) {
+    for (std::size_t i = 0; i < (base.*table).size(); ++i) {
         out.push_back(blank<D>((base.*table)[i]));
         pair_up(out.back(), (base.*table)[i], [](D& to, double from) { to = D(from); });
-        for (size_t l = 0; l < rates.size(); ++l)
+        for (std::size_t l = 0; l < rates.size(); ++l)
             if (rates[l]) pair_up(out.back(), (rates[l]->*table)[i], [l](D& to, double rate) { to.d[l] = rate; });
     }
 }

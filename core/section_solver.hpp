@@ -213,7 +213,7 @@ class SectionSolver {
             if (worst <= SECTION_TOLERANCE) {
                 worst_residual = larger(worst_residual, worst);
                 if (LANES == 0 && precision == Precision::checked) return true;
-                return finish(section, total, tube, e, last < SAME_TANGENT);
+                return finish(section, total, tube, e, LANES == 0 && last < SAME_TANGENT);
             }
             if (iteration > 2) watch_tendons(section);
             if (!(worst < last) && !(energy(section, z, packing, e) < energy(section, z, packing, from))) {

@@ -32,6 +32,8 @@ class Solution:
     shortest_tendon: float
     base_determinant: float
     used_continuation: bool
+    stability: int
+    switched: bool
     steps: list[int]
     free_end_psi: np.ndarray
     tension: np.ndarray
@@ -48,6 +50,7 @@ def solve(
     residual_tolerance: float,
     guess: Solution | None = None,
     steps: int = 0,
+    stay: bool = False,
 ) -> Solution:
     """Free-end unknowns, residuals and tip of one robot at one actuation."""
 
@@ -64,6 +67,28 @@ def sensitivities(
 
 def length_jacobian(robot: PreparedRobot, solution: Solution) -> np.ndarray:
     """d(tendon lengths)/d(tensions)."""
+
+def branches(
+    robot: PreparedRobot,
+    tension: np.ndarray,
+    rotation: np.ndarray,
+    translation: np.ndarray,
+    tolerance: float,
+    residual_tolerance: float,
+    samples: int = 0,
+) -> list[Solution]:
+    """All equilibria found at one actuation, stable ones first, then by energy."""
+
+def stability(
+    robot: PreparedRobot, solution: Solution, samples: int
+) -> tuple[bool, float, np.ndarray, np.ndarray, np.ndarray]:
+    """Stable, margin, s, determinant, conjugate points."""
+
+def potential_energy(robot: PreparedRobot, solution: Solution) -> float:
+    """Potential energy, J."""
+
+def free_end_distance(robot: PreparedRobot, a: Solution, b: Solution) -> float:
+    """Largest turn between two free ends, rad."""
 
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""

@@ -1,6 +1,7 @@
 """`tactr solve`: its report, its JSON, its files, and what it says when something is wrong."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -174,6 +175,20 @@ def test_no_equilibrium_as_json(run):
 def test_no_equilibrium_writes_nothing(run, tmp_path):
     run("solve", "till_straight", "--tension", "tendon=1e9", "--save", str(tmp_path / "a.nc"))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_buckled_rod_near_its_limit_is_pointed_out(run, tmp_path):
+    tube = tactr.Tube("rod", length=0.2, section=tactr.Rod(1e-3), material=tactr.Material(E=54e9, nu=0.3))
+    euler = math.pi**2 * tube.stiffness.EI_x / (4 * 0.2**2)
+    path = tmp_path / "rod.yaml"
+    tactr.save(tactr.Robot([tube], loads=[tactr.PointLoad("rod", force=(0.0, 0.0, -0.9 * euler))]), path)
+    code, out, _ = run("solve", str(path))
+    assert code == 0 and "warning: stable, margin 0.00648: near the limit" in out
+    stability = solved(run, str(path))["stability"]
+    assert stability["stable"] is True and stability["conjugate_points_m"] == []
+    assert stability["margin"] == pytest.approx(math.cos(math.pi / 2 * math.sqrt(0.9)) ** 2, rel=1e-3)
+    assert "near the limit" in stability["warning"]
+    assert solved(run, "three_tube_c")["stability"]["warning"] is None
 
 
 def test_displacements(run):

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 import tactr
 from tactr import Annulus, Gravity, Material, PointLoad, Robot, RobotError, Stiffness, Tube
 from tactr.statics import Shape, Status
 
 LENGTH, NU = 0.1, 0.3
+
+
+def find_root(f: Callable[[float], float], low: float, high: float, *, xtol: float = 1e-12) -> float:
+    """The root of f between low and high."""
+    return float(root_scalar(f, bracket=(low, high), xtol=xtol).root)
 
 
 def pair(size: float, angle: float) -> Robot:
@@ -52,7 +58,7 @@ def pendulum_tips(angle: float, size: float) -> list[float]:
         missed = bases - angle - math.tau * m
         for k in np.flatnonzero(missed[:-1] * missed[1:] < 0.0):
             wanted = angle + math.tau * m
-            root = brentq(
+            root = find_root(
                 lambda x, w=wanted: pendulum_base(x, size) - w, places[k], places[k + 1], xtol=1e-13
             )
             tips.append(root - math.tau * m)
@@ -192,7 +198,7 @@ def test_a_cold_start_buckles(force: float) -> None:
         rate = lambda _, a: (a[1], -load / 1e-2 * math.sin(a[0]), math.sin(a[0]))  # noqa: E731
         return solve_ivp(rate, (0.0, LENGTH), (tip, 0.0, 0.0), rtol=1e-11, atol=1e-13).y[:, -1]
 
-    tip = brentq(lambda x: at_base(x)[0], 0.05, 3.1, xtol=1e-12)
+    tip = find_root(lambda x: at_base(x)[0], 0.05, 3.1, xtol=1e-12)
     assert np.hypot(*shape.tip_position[:2]) == pytest.approx(at_base(tip)[2], abs=1e-7)
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import root_scalar
 
 import tactr
 from tactr import (
@@ -25,6 +26,11 @@ from tactr import (
 )
 
 LENGTH, NU = 0.1, 0.3
+
+
+def find_root(f: Callable[[float], float], low: float, high: float, *, xtol: float = 1e-12) -> float:
+    """The root of f between low and high."""
+    return float(root_scalar(f, bracket=(low, high), xtol=xtol).root)
 
 
 def pair(size: float) -> Robot:
@@ -54,6 +60,16 @@ def pendulum_base(tip: float, size: float) -> float:
     return float(path.y[0, -1])
 
 
+def pendulum_fold(size: float) -> tuple[float, float]:
+    """Tip and base angle where the base angle is largest: where its slope in the tip angle is zero."""
+
+    def slope(tip: float) -> float:
+        return pendulum_base(tip + 1e-5, size) - pendulum_base(tip - 1e-5, size)
+
+    tip = find_root(slope, 0.1, 3.1)
+    return tip, pendulum_base(tip, size)
+
+
 def turned(*degrees: float) -> list[dict]:
     return [{"rotation": {"inner": math.radians(angle)}} for angle in degrees]
 
@@ -62,17 +78,15 @@ def turned(*degrees: float) -> list[dict]:
 def test_two_tubes_snap_where_the_pendulum_folds(size: float) -> None:
     """The base angle has a maximum over the tip angle; beyond it the tip goes on to the next branch: that of
     a base turned by another 360 degrees less."""
-    fold = minimize_scalar(
-        lambda x: -pendulum_base(x, size), bounds=(0.1, 3.1), method="bounded", options={"xatol": 1e-10}
-    )
+    fold_tip, fold_base = pendulum_fold(size)
     followed = tactr.follow(pair(size), turned(0, 90, 180, 270, 360, 450), tolerance=1e-9)
     assert followed.converged and len(followed.shapes) == 6 and len(followed.snaps) == 1
     snap = followed.snaps[0]
-    assert snap.parameter * math.pi / 2 == pytest.approx(-fold.fun, abs=2e-4)
+    assert snap.parameter * math.pi / 2 == pytest.approx(fold_base, abs=2e-4)
     assert snap.before.stability.stable and snap.after.stability.stable
-    assert snap.before.stability.margin < 0.1 and snap.after.energy < snap.before.energy
+    assert snap.before.stability.margin < 0.1 and snap.after.potential_energy < snap.before.potential_energy
     base = snap.parameter * math.pi / 2 - 2 * math.pi
-    landed = brentq(lambda x: pendulum_base(x, size) - base, -fold.x, 0.0, xtol=1e-12) + 2 * math.pi
+    landed = find_root(lambda x: pendulum_base(x, size) - base, -fold_tip, 0.0, xtol=1e-12) + 2 * math.pi
     assert float(snap.after.theta[1, -1]) == pytest.approx(landed, abs=1e-6)
     assert float(followed.shapes[4].theta[1, -1]) == pytest.approx(2 * math.pi, abs=1e-6)
 
@@ -172,10 +186,15 @@ def test_a_profile_stays() -> None:
     profile = TensionProfile(sigma=(0.0, 0.1), values=(2.0, 1.0))
     robot = three_tubes()
     robot = robot.replace(tendons=[Tendon("a", "outer", Straight(3e-3, 0.0), tension=profile)])
-    followed = tactr.follow(robot, [{"rotation": {"inner": 0.0}}, {"rotation": {"inner": 1.0}}])
+    robot = robot.replace(tendons=[*robot.tendons, Tendon("b", "inner", Helix(2e-3, 20.0), tension=1.0)])
+    turn = {"inner": 1.0}
+    followed = tactr.follow(robot, [{}, {"rotation": turn, "tension": {"b": 2.0}}])
+    assert followed.shapes[1].robot.tendons[1].tension == 2.0
     assert followed.converged and followed.shapes[1].robot.tendons[0].tension == profile
     np.testing.assert_allclose(
-        followed.shapes[1].tip_position, tactr.solve(robot, rotation={"inner": 1.0}).tip_position, atol=2e-6
+        followed.shapes[1].tip_position,
+        tactr.solve(robot, rotation=turn, tension={"b": 2.0}).tip_position,
+        atol=2e-6,
     )
 
 

@@ -10,13 +10,14 @@ import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
-from tactr.robot import Robot
+from tactr.robot import Robot, TensionProfile
 from tactr.statics.path import Path, path_points
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared, _Actuated, _rotations, _tensions, _translations
 
 LONGEST_TURN = 0.1  # rad at the free ends in one step: a larger one is taken in smaller steps, or is a snap
 FIRST_STEP, GROWTH = 0.25, 1.6
+MOST_LOST = 4  # a branch lost so often in a row is given up: the next point is solved from cold
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,9 +72,10 @@ def follow(
     what is left out stays as the robot has it. start: a shape near the first point, whose branch is taken,
     otherwise that of a cold solve. The path is walked in adaptive steps in which no tube turns by more than
     0.1 rad at its end; where the branch ends or loses its stability, it snaps: to the nearest stable shape of
-    less energy, as a slow, damped robot would, or, if there is none, to the nearest stable one. A jump of
-    less than 0.1 rad is not told from a fast motion. snap_tolerance: how closely a snap is located, in points
-    of the path. tolerance, stations: as in ``solve``. Raises RobotError.
+    less energy, as a slow, damped robot would, or, if there is none, to the nearest stable one. Where no
+    shape is found the next point is solved from cold. A jump of less than 0.1 rad is not told from a fast
+    motion. snap_tolerance: how closely a snap is located, in points of the path. tolerance, stations: as in
+    ``solve``. Raises RobotError.
     """
     if not (isinstance(snap_tolerance, int | float) and 0.0 < snap_tolerance <= FIRST_STEP):
         raise RobotError(
@@ -109,12 +111,16 @@ class _Follower:
     def _at(self, t: float) -> _Actuated:
         k = min(math.floor(t), max(self._count - 2, 0))
         part = t - k
-        rows = [(r[k] if part == 0.0 else (1.0 - part) * r[k] + part * r[k + 1]) for r in self._rows]
-        changed = dict(zip(("tension", "rotation", "translation"), rows, strict=True))
-        profiled = self._prepared._least_tension == np.inf  # a profile is not replaced by a number
-        if profiled.any():
-            del changed["tension"]
-        return _Actuated(self._base, tuple(rows), changed)
+        tension, rotation, translation = (
+            r[k] if part == 0.0 else (1.0 - part) * r[k] + part * r[k + 1] for r in self._rows
+        )
+        plain = {  # a profile is not replaced by a number
+            tendon.name: value
+            for tendon, value in zip(self._base.tendons, tension, strict=True)
+            if not isinstance(tendon.tension, TensionProfile)
+        }
+        changed = {"tension": plain, "rotation": rotation, "translation": translation}
+        return _Actuated(self._base, (tension, rotation, translation), changed)
 
     def _solve(self, t: float, guess: Shape | None) -> Shape:
         return self._prepared._solved(self._at(t), guess, stay=guess is not None)
@@ -122,18 +128,20 @@ class _Follower:
     def _walk(self, shape: Shape, t: float, end: float) -> Shape:
         if not shape.converged:
             return self._solve(end, None)
+        lost = 0  # times in a row that the branch was lost
         while t < end:
             step = min(self._step, end - t)
             ahead = end if step >= end - t else t + step
             candidate = self._solve(ahead, shape)
             if self._continues(shape, candidate):
-                shape, t = candidate, ahead
+                shape, t, lost = candidate, ahead, 0
                 self._step = min(GROWTH * max(step, self._least_step), 1.0)
             elif step > self._least_step:
                 self._step = 0.5 * step
             else:
                 after = self._land(shape, ahead)
-                if not after.converged:
+                lost += 1
+                if not after.converged or lost == MOST_LOST:
                     return after if ahead == end else self._solve(end, None)
                 shape, t, self._step = after, ahead, FIRST_STEP
         return shape

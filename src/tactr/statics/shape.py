@@ -90,7 +90,7 @@ class Shape(Mechanics, Derivatives):
         solution: _core.Solution,
         *,
         base: Robot,
-        actuation: dict[str, np.ndarray],
+        actuation: dict[str, Any],
         tolerance: float,
         residual_tolerance: float,
         stations: Stations,

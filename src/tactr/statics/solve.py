@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from functools import cached_property, partial
 from time import perf_counter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -89,8 +89,8 @@ class _Actuated(NamedTuple):
     actuation the base does not have, and displacements, NaN where there is none, or None without any."""
 
     base: Robot
-    arrays: tuple[np.ndarray, ...]
-    changed: dict[str, np.ndarray]
+    arrays: tuple[np.ndarray, np.ndarray, np.ndarray]
+    changed: dict[str, Any]
     displacement: np.ndarray | None = None
 
 
@@ -202,7 +202,8 @@ class Prepared:
             changed["displacement"] = displacement = np.array(displacement)
         elif plain and tension is None:
             displacement = self._displacement  # a fresh tension takes over from a displacement
-        return _Actuated(base, tuple(arrays.values()), changed, _without_nothing(displacement))
+        every = arrays["tension"], arrays["rotation"], arrays["translation"]
+        return _Actuated(base, every, changed, _without_nothing(displacement))
 
     def _solved(self, actuated: _Actuated, guess: Shape | None, *, stay: bool = False) -> Shape:
         """From a guess or from cold; stay: on the guess's branch or not at all."""
