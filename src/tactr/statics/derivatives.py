@@ -19,7 +19,7 @@ from tactr.robot import _check as check
 from tactr.statics.parameters import actuator_column, rates_of
 
 if TYPE_CHECKING:
-    from tactr.statics.displacement import Pulled
+    from tactr.statics.pulls import Pulled
     from tactr.statics.shape import Shape
 
 Axes = Literal["world", "body"]

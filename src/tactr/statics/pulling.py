@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tactr import _core
-from tactr.statics.displacement import is_stable
+from tactr.statics.pulls import is_stable
 
 if TYPE_CHECKING:
     from tactr.robot import Robot
-    from tactr.statics.displacement import Pulled
+    from tactr.statics.pulls import Pulled
     from tactr.statics.rest import RestState
     from tactr.statics.stability import Stability
 

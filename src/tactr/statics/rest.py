@@ -11,7 +11,7 @@ from tactr.errors import NotConverged
 from tactr.robot import Robot, TensionProfile
 from tactr.statics.actuation import rotations, translations
 from tactr.statics.assemble import assemble
-from tactr.statics.displacement import LARGEST, MET_SHARE, Pulled, Pulls
+from tactr.statics.pulls import LARGEST, MET_SHARE, Pulled, Pulls
 
 
 class RestState:

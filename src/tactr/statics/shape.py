@@ -14,10 +14,10 @@ from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
 from tactr.statics.derivatives import Derivatives
-from tactr.statics.displacement import Pulled
 from tactr.statics.frames import rotation_matrices, turned_about_z
 from tactr.statics.mechanics import Mechanics
 from tactr.statics.pulling import Pulling
+from tactr.statics.pulls import Pulled
 from tactr.statics.rest import RestState
 from tactr.statics.stability import Stability, stability_of
 from tactr.statics.stations import Stations, station_places

@@ -25,7 +25,8 @@ from tactr.statics.actuation import (
     without_nothing,
 )
 from tactr.statics.assemble import assemble
-from tactr.statics.displacement import DisplacementSolver, Pulled
+from tactr.statics.displacement import DisplacementSolver
+from tactr.statics.pulls import Pulled
 from tactr.statics.rest import RestState, pulls_from
 from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places

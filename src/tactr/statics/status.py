@@ -9,7 +9,7 @@ from tactr import _core
 
 if TYPE_CHECKING:
     from tactr.robot import Robot
-    from tactr.statics.displacement import Pulled
+    from tactr.statics.pulls import Pulled
 
 
 class Status(str, Enum):
