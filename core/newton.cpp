@@ -25,6 +25,7 @@ void NewtonSolver::read_tip(Solution& solution, const M& march, const FreeEnd<T>
     for (int a = 0; a < 4; ++a) solution.tip_quaternion[a] = quaternion[a].v;
     solution.discretisation_error = regular && std::isfinite(error) ? ERROR_SAFETY * std::sqrt(error) : UNKNOWN_ERROR;
     section_error_ = march.section_error;
+    edge_error_ = march.edge_error;
     solution.tendon_length = march.tendon_length;
 }
 

@@ -28,7 +28,7 @@ class NewtonSolver {
     void start_straight(Solution& solution) const {
         for (int i = 0; i < robot.tube_count; ++i) solution.free_end.psi[i] = actuation.rotation[i];
         for (int c = 0; c < 4; ++c) solution.free_end.quaternion[c] = c == 0;
-        solution.mesh.steps.assign(layout.sections.size(), 1);
+        solution.mesh.cut(layout.sections.size(), 1);
         solution.mesh.fit();
     }
 
@@ -48,7 +48,7 @@ class NewtonSolver {
 
     /// One plain march chooses the steps, starting from one a section.
     void choose_mesh(Solution& solution) {
-        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
         add_steps(solution);
     }
 
@@ -56,10 +56,12 @@ class NewtonSolver {
     /// any solution perhaps; the mesh is then left as it was.
     bool add_steps(Solution& solution) {
         const std::vector<int> before = solution.mesh.steps;
+        const std::vector<double> grade = solution.mesh.grade;
         const int most = MOST_GROWTH * (solution.mesh.total() + 8);
         BaseState<double> base;
         if (plain_march(solution, actuation, base) && solution.mesh.total() <= most) return true;
         solution.mesh.steps = before;
+        solution.mesh.grade = grade;
         solution.mesh.fit();
         return false;
     }
@@ -67,7 +69,7 @@ class NewtonSolver {
     /// As choose_mesh; then moves the free end by the angles at which that march missed the base.
     void choose_mesh_and_wind(Solution& solution) {
         BaseState<double> base;
-        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
         if (!plain_march(solution, actuation, base)) return;
         double missed[MAX_UNKNOWNS];
         shooting.residual(base, actuation.rotation, missed);
@@ -79,7 +81,7 @@ class NewtonSolver {
         Actuation<double> unloaded = actuation;
         unloaded.load_scale = 0.0;
         BaseState<double> base;
-        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
         if (plain_march(solution, unloaded, base)) shooting.upright(base, actuation.rotation[0], solution.free_end);
     }
 
@@ -196,7 +198,7 @@ class NewtonSolver {
     static constexpr double UNKNOWN_ERROR = 1e300;
     static constexpr double ERROR_SAFETY = 2.0;  // the embedded estimate, carried to the tip, underrates the coarsest meshes
 
-    std::vector<double> section_error_;
+    std::vector<double> section_error_, edge_error_;
 
     bool backtrack(Solution& solution, double* step, double size) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
@@ -239,7 +241,8 @@ class NewtonSolver {
 
     static constexpr double SINGLE_STEP_SHARE = 0.15;
 
-    /// More steps where the error comes from, as many as an eighth-order rule needs to bring the tip below tolerance.
+    /// More steps, or better graded ones, where the error comes from: as many as an eighth-order rule needs to bring the
+    /// tip below tolerance.
     bool refine(Solution& solution, double allowed) {
         double largest = 0.0;
         for (double error : section_error_) largest = larger(largest, error);
@@ -248,14 +251,31 @@ class NewtonSolver {
         for (size_t k = 0; k < section_error_.size(); ++k) {
             const double excess = ratio * section_error_[k] / largest;
             if (!(excess > 0.5)) continue;
-            const double factor = smaller(3.0, std::pow(excess, 0.125));
             const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
-            const int steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(factor * now))));
-            finer = finer || steps > now;
+            const double first = edge_error_[2 * k], last = edge_error_[2 * k + 1];
+            const double grade = solution.mesh.even_grade(k, now, first, last);
+            const double left = excess * error_left(now, solution.mesh.grade_of(k), grade, first, last);
+            int steps = now;
+            if (!(left < 0.7)) steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(smaller(3.0, std::pow(left, 0.125)) * now))));
+            finer = finer || steps > now || grade != solution.mesh.grade_of(k);
+            solution.mesh.grade[k] = solution.mesh.even_grade(k, steps, first, last);
             solution.mesh.steps[k] = steps;
         }
         solution.mesh.fit();
         return finer;
+    }
+
+    /// Share of a section's error that would be left with another grade, its density changing geometrically along it.
+    static double error_left(int n, double before, double after, double first, double last) {
+        if (n < 2 || before == after || !(first > 0.0) || !(last > 0.0)) return 1.0;
+        double old = 0.0, regraded = 0.0;
+        const auto length = [n](int i, double g) { return Mesh::share_before(i + 1, n, g) - Mesh::share_before(i, n, g); };
+        for (int i = 0; i < n; ++i) {
+            const double error = first * std::pow(last / first, static_cast<double>(i) / (n - 1));
+            old += error;
+            regraded += error * std::pow(length(i, after) / length(i, before), 9.0);
+        }
+        return regraded / old;
     }
 };
 

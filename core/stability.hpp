@@ -226,6 +226,8 @@ class StabilityPass {
         bool finer = false;
         for (size_t k = 0; k < error_.size(); ++k)
             if (error_[k] > tolerance && mesh.steps[k] < March<double, double>::MAX_STEPS) {
+                mesh.grade.resize(error_.size(), 1.0);
+                mesh.grade[k] = std::sqrt(mesh.grade[k]);
                 mesh.steps[k] *= 2;
                 finer = true;
             }
