@@ -24,7 +24,7 @@ from convergence import machine
 from random_robots import random_robot
 
 from tactr.robot import Robot
-from tactr.statics import Prepared, Status
+from tactr.statics import Prepared, Shape, Status
 
 WANTED = 0.999
 TOLERANCE = 1e-6  # m
@@ -88,7 +88,7 @@ def outcome_of(seed: int) -> Outcome | None:
     )
 
 
-def holds(robot: Robot, shape: object) -> bool:
+def holds(robot: Robot, shape: Shape) -> bool:
     """Whether the displacements and slackness asked for are those of a solve at the tensions found."""
     at = robot.with_actuation(tension=shape.tension)
     again = Prepared(at, tolerance=TOLERANCE, stations=2).solve(guess=shape)

@@ -13,10 +13,10 @@ def json_report(shape: Any) -> str:
 
     Always there: robot (name), converged, status, message, residual (largest scaled equation), iterations,
     discretisation_error_m, displacement_error_m (0 without displacements), solve_time_s. Where converged:
-    stability (stable, margin: 1 unloaded, 0 at the limit,
-    conjugate_points_m, and warning: a text or null), tip (position_m, quaternion_wxyz), tubes (name,
-    length_m, translation_m, rotation_rad, tip_position_m), tendons (name, tube, tension_N, length_m,
-    displacement_m, given: "tension" or "displacement", slack), slack (names of the slack ones),
+    stability (stable, margin: 1 unloaded, 0 at the limit, conjugate_points_m, and warning: a text or null),
+    tip (position_m, quaternion_wxyz), tubes (name, length_m, translation_m, rotation_rad, tip_position_m),
+    tendons (name, tube, tension_N, length_m, displacement_m, given: "tension" or "displacement", slack),
+    slack (names of the slack ones),
     transition_points (s_m, position_m), centreline (s_m, position_m).
     """
     report = {

@@ -43,6 +43,8 @@ def _stability(shape: Shape) -> str:
     stability = shape.stability
     if stability.stable and not stability.near_limit:
         return str(stability)
+    if shape.stable and not stability.stable:
+        return _styled(f"stable with the motors held; at these tensions {stability}", YELLOW)
     return _styled(f"warning: {stability}", YELLOW)
 
 

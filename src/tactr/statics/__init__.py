@@ -1,8 +1,8 @@
 """Statics: from a robot and its actuation to its shape, over the C++ kernel."""
 
 from tactr.statics.contact import Contact, GuideReaction, PointContacts
-from tactr.statics.follow import Followed, Snap, follow
 from tactr.statics.derivatives import Jacobian
+from tactr.statics.follow import Followed, Snap, follow
 from tactr.statics.mechanics import ActuatorForces
 from tactr.statics.rest import rest_lengths
 from tactr.statics.shape import Shape, TendonShape, TubeShape
@@ -16,6 +16,7 @@ __all__ = [
     "Contact",
     "Followed",
     "GuideReaction",
+    "Jacobian",
     "PointContacts",
     "Prepared",
     "Shape",
@@ -23,7 +24,6 @@ __all__ = [
     "Stability",
     "Status",
     "TendonShape",
-    "Jacobian",
     "TubeShape",
     "Work",
     "branches",

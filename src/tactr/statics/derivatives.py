@@ -19,7 +19,7 @@ from tactr.robot import _check as check
 from tactr.statics.parameters import actuator_column, rates_of
 
 if TYPE_CHECKING:
-    from tactr.statics.displacement import Pulled
+    from tactr.statics.pulls import Pulled
     from tactr.statics.shape import Shape
 
 Axes = Literal["world", "body"]
@@ -28,11 +28,11 @@ Axes = Literal["world", "body"]
 class Jacobian(NamedTuple):
     """Derivatives of a point's pose: six rows, its shift (m) and its rotation (rad); k first where there are k points.
 
-    tension (..., 6, tendons), per N; rotation (..., 6, tubes), per rad; translation (..., 6, tubes), per m: at the
-    present tensions of all tendons, also of those pulled by displacements. A tendon with a TensionProfile
-    counts per unit of a factor on the whole profile. displacement (..., 6, tendons), per m: the motors of all
-    tendons pulled by displacements held but one, the other tendons at their tension; 0 for slack tendons and
-    for those pulled by a tension. Where a slack tendon is about to be taut it is the derivative on the slack side.
+    tension (..., 6, tendons), per N; rotation (..., 6, tubes), per rad; translation (..., 6, tubes), per m: at
+    the present tensions of all tendons, also of those pulled by displacements. A tendon with a TensionProfile
+    counts per unit of a factor on the whole profile. displacement (..., 6, tendons), per m: the motors of the
+    other tendons pulled by displacements held; 0 for slack tendons and for those pulled by a tension. Where a
+    slack tendon is about to be taut it is the derivative on the slack side.
     """
 
     tension: np.ndarray
@@ -60,7 +60,7 @@ class Derivatives:
         def _require_convergence(self) -> None: ...
 
     def tip_jacobian(self, *, axes: Axes = "world") -> Jacobian:
-        """Derivatives of the tip with respect to tensions, displacements, rotations and translations.
+        """Derivatives of the tip with respect to tensions, rotations, translations and displacements.
 
         The tip is the distal end of the robot, a material point: it moves with its tube. Where a tube's end or a
         step in its shape meets another breakpoint, the shape has a corner in its translation and the derivative
@@ -154,9 +154,9 @@ class Derivatives:
     def _split(self, matrix: np.ndarray) -> Jacobian:
         tendons, tubes = len(self.robot.tendons), len(self.robot.tubes)
         tension, rotation, translation = np.split(matrix, [tendons, tendons + tubes], axis=-1)
-        displacement = np.zeros_like(tension)
-        if self._pulled is not None:
-            displacement = tension @ self._pulled.tension_jacobian(self._prepared)
+        if self._pulled is None:
+            return Jacobian(tension, rotation, translation, np.zeros_like(tension))
+        displacement = tension @ self._pulled.tension_jacobian(self._prepared)
         return Jacobian(tension, rotation, translation, displacement)
 
     def _frames_at(self, places: Sequence[float] | np.ndarray, axes: Axes) -> np.ndarray | None:

@@ -11,9 +11,10 @@ import numpy as np
 from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
+from tactr.statics.actuation import rotations, tensions, translations
 from tactr.statics.path import Path, path_points
 from tactr.statics.shape import Shape
-from tactr.statics.solve import Prepared, _Actuated, _rotations, _tensions, _translations
+from tactr.statics.solve import Prepared, _Actuated
 
 LONGEST_TURN = 0.1  # rad at the free ends in one step: a larger one is taken in smaller steps, or is a snap
 FIRST_STEP, GROWTH = 0.25, 1.6
@@ -92,7 +93,7 @@ class _Follower:
     def __init__(self, prepared: Prepared, points: list[Robot], least_step: float) -> None:
         self._prepared = prepared
         self._base = points[0]
-        self._rows = [np.array([read(p) for p in points]) for read in (_tensions, _rotations, _translations)]
+        self._rows = [np.array([read(p) for p in points]) for read in (tensions, rotations, translations)]
         self._count = len(points)
         self._least_step = least_step
         self._step = FIRST_STEP

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot, TensionProfile
+from tactr.statics.actuation import rotations, translations
 from tactr.statics.assemble import assemble
+from tactr.statics.pulls import LARGEST, MET_SHARE, Pulled, Pulls
 
 
 class RestState:
@@ -47,6 +51,29 @@ class RestState:
         return solution.tendon_length
 
 
+def pulls_from(
+    rest: RestState,
+    arrays: Sequence[np.ndarray],
+    displacement: np.ndarray,
+    compliance: np.ndarray,
+    tolerance: float,
+) -> Pulls | Pulled:
+    """The pulls of an actuation (tension, rotation, translation) and displacements, NaN where there is none;
+    compliance of all tendons; tolerance at the tip. A failed Pulled where there is no rest state."""
+    given = ~np.isnan(displacement)
+    index, soft, asked = np.flatnonzero(given), compliance[given], displacement[given]
+    allowed = MET_SHARE * tolerance
+    try:
+        lengths = rest.lengths(arrays[1], arrays[2], needed=given)[given]
+    except NotConverged:
+        solution = rest.solution
+        assert solution is not None
+        pulls = Pulls(index, asked, soft, np.zeros(len(index)), allowed)
+        missed = np.full(len(index), LARGEST)
+        return Pulled(pulls, solution, missed, 0, solution.iterations, rested=False)
+    return Pulls(index, asked, soft, lengths - soft * rest.pretension[given], allowed)
+
+
 def rest_lengths(robot: Robot, *, tolerance: float = 1e-6) -> dict[str, float]:
     """Length of every tendon in the rest state of a robot, m, by name.
 
@@ -58,7 +85,7 @@ def rest_lengths(robot: Robot, *, tolerance: float = 1e-6) -> dict[str, float]:
     from tactr.statics.solve import Prepared
 
     prepared = Prepared(robot, tolerance=tolerance, stations=2)
-    lengths = prepared._rest.measured(prepared._rotation, prepared._translation)
+    lengths = prepared._rest.measured(rotations(robot), translations(robot))
     return {tendon.name: float(length) for tendon, length in zip(robot.tendons, lengths, strict=True)}
 
 

@@ -14,9 +14,10 @@ from tactr import _core
 from tactr.errors import NotConverged
 from tactr.robot import Robot
 from tactr.statics.derivatives import Derivatives
-from tactr.statics.displacement import Pulled
 from tactr.statics.frames import rotation_matrices, turned_about_z
 from tactr.statics.mechanics import Mechanics
+from tactr.statics.pulling import Pulling
+from tactr.statics.pulls import Pulled
 from tactr.statics.rest import RestState
 from tactr.statics.stability import Stability, stability_of
 from tactr.statics.stations import Stations, station_places
@@ -76,7 +77,7 @@ class TendonShape:
         return f"<TendonShape {self.name!r}: length {self.length * 1e3:.3f} mm{state}>"
 
 
-class Shape(Mechanics, Derivatives):
+class Shape(Mechanics, Derivatives, Pulling):
     """The shape of a robot under given actuation, or why there is none.
 
     Always readable: robot, status, converged, message, residual, residual_tolerance, iterations,
@@ -142,46 +143,6 @@ class Shape(Mechanics, Derivatives):
         return self._solution.iterations if self._pulled is None else self._pulled.marches
 
     @property
-    def displacement_error(self) -> float:
-        """What is missing in the displacement of a tendon, at most, m: a taut tendon's motor elsewhere than
-        asked for, or a slack one's beyond. A tenth of ``tolerance`` is allowed; 0 without displacements."""
-        return 0.0 if self._pulled is None else float(self._pulled.missed.max())
-
-    @property
-    def slack(self) -> tuple[str, ...]:
-        """Names of the tendons pulled by a displacement that have no tension."""
-        self._require_convergence()
-        return () if self._pulled is None else self._pulled.slack(self._base)
-
-    @property
-    def tension(self) -> np.ndarray:
-        """Tension of every tendon at its motor, (tendons,), N; 1 for a TensionProfile."""
-        self._require_convergence()
-        return self._solution.tension
-
-    @cached_property
-    def displacement(self) -> np.ndarray:
-        """What the motor of every tendon pulls, (tendons,), m: as given, or for one pulled by a tension the
-        displacement that goes with it, rest length - length + compliance (tension - pretension)."""
-        self._require_convergence()
-        robot, rest = self.robot, self._rest()
-        rotation, translation = (
-            np.array([getattr(tube, name) for tube in robot.tubes]) for name in ("rotation", "translation")
-        )
-        lengths = rest.lengths(rotation, translation, needed=np.ones(len(robot.tendons), dtype=bool))
-        compliance = np.array([tendon.compliance for tendon in robot.tendons])
-        pull = (
-            lengths - self._solution.tendon_length + compliance * (self._solution.tension - rest.pretension)
-        )
-        given = [tendon.displacement for tendon in robot.tendons]
-        return np.array([own if asked is None else asked for own, asked in zip(pull, given, strict=True)])
-
-    @property
-    def discretisation_error(self) -> float:
-        """Estimated error of the tip position from the finite step size, m."""
-        return self._solution.discretisation_error
-
-    @property
     def tip_position(self) -> np.ndarray:
         """Position of the distal end, (3,), m, world axes."""
         self._require_convergence()
@@ -200,7 +161,7 @@ class Shape(Mechanics, Derivatives):
 
     @cached_property
     def stability(self) -> Stability:
-        """Whether the shape is stable, and how far from the limit where it snaps or buckles."""
+        """Whether the shape is stable at its tensions, and how far from the limit of snapping or buckling."""
         self._require_convergence()
         return stability_of(self._prepared, self._solution)
 

@@ -11,14 +11,23 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tactr import _core
-from tactr.errors import NotConverged, RobotError
-from tactr.robot import Robot, Tendon, TensionProfile, Tube
-from tactr.robot._consistency import LEAST_REACH
+from tactr.errors import RobotError
+from tactr.robot import Robot, TensionProfile
 from tactr.robot.load import Load
 from tactr.robot.robot import Displacements, Numbers, Tensions
-from tactr.statics.assemble import assemble, base_tension
-from tactr.statics.displacement import LARGEST, MET_SHARE, DisplacementSolver, Pulled, Pulls
-from tactr.statics.rest import RestState
+from tactr.statics.actuation import (
+    differs_in_profile,
+    displacements,
+    innermost_place,
+    rotations,
+    tensions,
+    translations,
+    without_nothing,
+)
+from tactr.statics.assemble import assemble
+from tactr.statics.displacement import DisplacementSolver
+from tactr.statics.pulls import Pulled
+from tactr.statics.rest import RestState, pulls_from
 from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
 
@@ -112,14 +121,14 @@ class Prepared:
         self._core = assemble(robot)
         self._given_stations = stations
         self._stations = station_places(robot, stations)
-        self._tension = _tensions(robot)
-        self._rotation = _rotations(robot)
-        self._translation = _translations(robot)
+        self._tension = tensions(robot)
+        self._rotation = rotations(robot)
+        self._translation = translations(robot)
         profiled = [isinstance(tendon.tension, TensionProfile) for tendon in robot.tendons]
         self._least_tension = np.where(profiled, np.inf, 0.0)  # a profile is not replaced by a number unseen
-        self._displacement = _displacements(robot)
+        self._displacement = displacements(robot)
         self._compliance = np.array([tendon.compliance for tendon in robot.tendons], dtype=float)
-        self._least_translation = np.array([-_innermost_place(robot, tube) for tube in robot.tubes])
+        self._least_translation = np.array([-innermost_place(robot, tube) for tube in robot.tubes])
 
     @cached_property
     def _rest(self) -> RestState:
@@ -184,26 +193,26 @@ class Prepared:
             and self._is_plain_displacement(displacement, tension)
         )
         given = {"tension": tension, "rotation": rotation, "translation": translation}
-        base = self.robot
+        base, pulled = self.robot, None
         if not plain:
             base = self.robot.with_actuation(**given, displacement=displacement)
-            if any(map(_differs_in_profile, self.robot.tendons, base.tendons)):
+            if any(map(differs_in_profile, self.robot.tendons, base.tendons)):
                 return Prepared(base, tolerance=self.tolerance, stations=self._given_stations)
             given = {
-                "tension": _tensions(base),
-                "rotation": _rotations(base),
-                "translation": _translations(base),
+                "tension": tensions(base),
+                "rotation": rotations(base),
+                "translation": translations(base),
             }
-            displacement = _displacements(base)
+            pulled = displacements(base)
         own = {"tension": self._tension, "rotation": self._rotation, "translation": self._translation}
         arrays = {name: own[name] if array is None else np.array(array) for name, array in given.items()}
         changed = {name: array for name, array in arrays.items() if plain and array is not own[name]}
         if plain and displacement is not None:
-            changed["displacement"] = displacement = np.array(displacement)
+            changed["displacement"] = pulled = np.array(displacement, dtype=float)
         elif plain and tension is None:
-            displacement = self._displacement  # a fresh tension takes over from a displacement
+            pulled = self._displacement  # a fresh tension takes over from a displacement
         every = arrays["tension"], arrays["rotation"], arrays["translation"]
-        return _Actuated(base, every, changed, _without_nothing(displacement))
+        return _Actuated(base, every, changed, without_nothing(pulled))
 
     def _solved(self, actuated: _Actuated, guess: Shape | None, *, stay: bool = False) -> Shape:
         """From a guess or from cold; stay: on the guess's branch or not at all."""
@@ -223,16 +232,9 @@ class Prepared:
 
     def _pulled(self, actuated: _Actuated, displacement: np.ndarray, guess: Shape | None) -> Pulled:
         """Tensions from displacements, NaN for tendons at their tension: from a guess, then from cold."""
-        given = ~np.isnan(displacement)
-        index, compliance = np.flatnonzero(given), self._compliance[given]
-        rest, asked, allowed = self._rest, displacement[given], MET_SHARE * self.tolerance
-        try:
-            lengths = rest.lengths(*actuated.arrays[1:], needed=given)[given]
-        except NotConverged:
-            unknown = Pulls(index, asked, compliance, np.zeros(len(index)), allowed)
-            missed = np.full(len(index), LARGEST)
-            return Pulled(unknown, rest.solution, missed, 0, rest.solution.iterations, rested=False)
-        pulls = Pulls(index, asked, compliance, lengths - compliance * rest.pretension[given], allowed)
+        pulls = pulls_from(self._rest, actuated.arrays, displacement, self._compliance, self.tolerance)
+        if isinstance(pulls, Pulled):
+            return pulls
         solver = DisplacementSolver(
             self._core, partial(self._at_tensions, actuated), pulls, actuated.arrays[0]
         )
@@ -284,39 +286,6 @@ class Prepared:
 
 def _start(guess: Shape | None) -> _core.Solution | None:
     return guess._solution if guess is not None and guess.converged else None
-
-
-def _tensions(robot: Robot) -> np.ndarray:
-    return np.array([base_tension(tendon) for tendon in robot.tendons], dtype=float)
-
-
-def _displacements(robot: Robot) -> np.ndarray | None:
-    """By tendon, NaN for those pulled by a tension; None where all are."""
-    given = [np.nan if tendon.displacement is None else tendon.displacement for tendon in robot.tendons]
-    return _without_nothing(np.array(given, dtype=float))
-
-
-def _without_nothing(displacement: np.ndarray | None) -> np.ndarray | None:
-    return None if displacement is None or np.isnan(displacement).all() else displacement
-
-
-def _rotations(robot: Robot) -> np.ndarray:
-    return np.array([tube.rotation for tube in robot.tubes], dtype=float)
-
-
-def _translations(robot: Robot) -> np.ndarray:
-    return np.array([tube.translation for tube in robot.tubes], dtype=float)
-
-
-def _innermost_place(robot: Robot, tube: Tube) -> float:
-    """Arc length of a tube, m, that has to stay outside the guide: its tip, or where a tendon ends."""
-    ends = [tendon.end for tendon in robot.tendons if tendon.tube == tube.name and tendon.end is not None]
-    return min([tube.length, *ends]) - LEAST_REACH
-
-
-def _differs_in_profile(own: Tendon, other: Tendon) -> bool:
-    profiled = isinstance(own.tension, TensionProfile) or isinstance(other.tension, TensionProfile)
-    return profiled and own.tension != other.tension
 
 
 def _samples(samples: int | None) -> int:

@@ -9,7 +9,7 @@ from tactr import _core
 
 if TYPE_CHECKING:
     from tactr.robot import Robot
-    from tactr.statics.displacement import Pulled
+    from tactr.statics.pulls import Pulled
 
 
 class Status(str, Enum):
@@ -84,8 +84,8 @@ def told_with_pulls(text: str, status: Status, pulled: Pulled, robot: Robot) -> 
     return (
         f"no tensions were found that meet the displacements: {names[worst]!r} misses its own of "
         f"{pulled.pulls.displacement[worst] * 1e3:.4g} mm by {pulled.missed[worst] * 1e3:.2g} mm at the best "
-        f"tensions found ({tensions}). Displacements that work against each other compress the tubes: pull less, give "
-        "the tendons their compliance, check the units; or start from a neighbouring shape with guess=."
+        f"tensions found ({tensions}). Displacements that work against each other compress the tubes: pull "
+        "less, give the tendons their compliance, check the units, or start from a shape nearby with guess=."
     )
 
 
