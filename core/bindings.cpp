@@ -15,7 +15,7 @@
 #include "sample.hpp"
 #include "sensitivity.hpp"
 #include "solve.hpp"
-#include "stability.hpp"
+#include "starts.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;

@@ -117,6 +117,7 @@ class BranchFinder {
         s.translation = like_.translation;
         s.free_end = like_.free_end;
         s.mesh.steps = like_.mesh.steps;
+        s.mesh.grade = like_.mesh.grade;
         s.mesh.fit();
         return s;
     }

@@ -62,6 +62,7 @@ class March {
     // Results
     BaseState<T> base;
     std::vector<double> section_error;  // per section, metres at the tip
+    std::vector<double> edge_error;     // of every section's first and last step
     std::vector<double> tendon_length;  // per tendon, when options.path
     std::vector<T> moving_length;       // the same, when lengths_move
 
@@ -122,6 +123,7 @@ class March {
         last_ = Strains{};
         solver.begin();
         section_error.assign(sections, 0.0);
+        edge_error.assign(2 * static_cast<size_t>(sections), 0.0);
         if (options.path) tendon_length.assign(robot.tendon_count, 0.0);
         if (lengths_move) moving_length.assign(robot.tendon_count, T(0.0));
     }
@@ -389,14 +391,19 @@ class March {
     bool march_section(const Section<P>& section, int k_section, Mesh& mesh, size_t first_stage, bool warm, Observer& observer) {
         if constexpr (SeesStages<Observer>::value) packing.fed_back = packing.count;  // p at the stages too
         const int steps = mesh.steps[k_section];
-        const P h = (section.proximal - section.distal) * (1.0 / steps);
+        const double grade = mesh.grade_of(k_section);
+        const P length = section.proximal - section.distal;
         for (int step = 0; step < steps; ++step) {
-            const P s = section.distal + h * static_cast<double>(step);
+            const double share = Mesh::share_before(step, steps, grade);
+            const P s = section.distal + length * share, h = length * (Mesh::share_before(step + 1, steps, grade) - share);
             T before[STATES];
             for (int n = 0; n < packing.count; ++n) before[n] = z[n];
             const size_t stage = first_stage + static_cast<size_t>(steps - 1 - step) * dp8::STAGES;
             if (!run_stages(section, k_section, s, h, before, mesh, stage, warm, observer)) return false;
+            const double error_before = section_error[k_section];
             advance(h, before, section_error[k_section]);
+            if (step == 0) edge_error[2 * k_section] = section_error[k_section] - error_before;
+            if (step + 1 == steps) edge_error[2 * k_section + 1] = section_error[k_section] - error_before;
             if constexpr (!std::is_same_v<Observer, NoObserver>) observer(*this, k_section, before, s, h);
         }
         return true;
@@ -417,7 +424,9 @@ class March {
             if (attempt == 6 || mesh.steps[k_section] >= MAX_STEPS) return solved;
             double factor = solved && std::isfinite(error) ? std::ceil(1.1 * std::pow(error / adapt_tolerance, 0.125)) : 4.0;
             factor = larger(2.0, smaller(factor, 4.0));
-            mesh.steps[k_section] = static_cast<int>(mesh.steps[k_section] * factor);
+            const int finer = static_cast<int>(mesh.steps[k_section] * factor);
+            if (solved) mesh.grade[k_section] = mesh.even_grade(k_section, finer, edge_error[2 * k_section], edge_error[2 * k_section + 1]);
+            mesh.steps[k_section] = finer;
             for (int n = 0; n < packing.count; ++n) z[n] = saved[n];
             last_ = saved_strains;
             tendon_length = saved_length;

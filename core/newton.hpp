@@ -28,7 +28,7 @@ class NewtonSolver {
     void start_straight(Solution& solution) const {
         for (int i = 0; i < robot.tube_count; ++i) solution.free_end.psi[i] = actuation.rotation[i];
         for (int c = 0; c < 4; ++c) solution.free_end.quaternion[c] = c == 0;
-        solution.mesh.steps.assign(layout.sections.size(), 1);
+        solution.mesh.cut(layout.sections.size(), 1);
         solution.mesh.fit();
     }
 
@@ -48,7 +48,7 @@ class NewtonSolver {
 
     /// One plain march chooses the steps, starting from one a section.
     void choose_mesh(Solution& solution) {
-        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
         add_steps(solution);
     }
 
@@ -56,10 +56,12 @@ class NewtonSolver {
     /// any solution perhaps; the mesh is then left as it was.
     bool add_steps(Solution& solution) {
         const std::vector<int> before = solution.mesh.steps;
+        const std::vector<double> grade = solution.mesh.grade;
         const int most = MOST_GROWTH * (solution.mesh.total() + 8);
         BaseState<double> base;
         if (plain_march(solution, actuation, base) && solution.mesh.total() <= most) return true;
         solution.mesh.steps = before;
+        solution.mesh.grade = grade;
         solution.mesh.fit();
         return false;
     }
@@ -67,7 +69,7 @@ class NewtonSolver {
     /// As choose_mesh; then moves the free end by the angles at which that march missed the base.
     void choose_mesh_and_wind(Solution& solution) {
         BaseState<double> base;
-        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
         if (!plain_march(solution, actuation, base)) return;
         double missed[MAX_UNKNOWNS];
         shooting.residual(base, actuation.rotation, missed);
@@ -79,7 +81,7 @@ class NewtonSolver {
         Actuation<double> unloaded = actuation;
         unloaded.load_scale = 0.0;
         BaseState<double> base;
-        solution.mesh.steps.assign(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
         if (plain_march(solution, unloaded, base)) shooting.upright(base, actuation.rotation[0], solution.free_end);
     }
 
@@ -88,14 +90,7 @@ class NewtonSolver {
     /// check: as exact but without derivatives; those of the last draft or exact march, close by, are kept.
     enum class Kind { rough, firm, draft, exact, check };
 
-    bool evaluate(Solution& solution, Kind kind) {
-        solution.steps_marched += solution.mesh.total();
-        ++solution.iterations;
-        kind_ = kind;
-        if (kind == Kind::check) return check(solution);
-        const int lanes = shooting.unknowns + (has_path(kind) ? 1 : 0);
-        return with_lanes(lanes, [&](auto count) { return evaluate_lanes<decltype(count)::value>(solution, kind); });
-    }
+    bool evaluate(Solution& solution, Kind kind);
 
     /// Newton with backtracking on the largest residual. first: kind of the first march; the last is exact or a check.
     /// True: below tolerance.
@@ -138,13 +133,7 @@ class NewtonSolver {
     }
 
     /// The base residual at a free end, without derivatives.
-    bool plain_residual(const FreeEnd<double>& end, Mesh& mesh, double* r) const {
-        March<double, double> march(robot, layout, actuation, shooting.newton_options());
-        shooting.scale(march);
-        if (!march.run(end, mesh)) return false;
-        shooting.residual(march.base, actuation.rotation, r);
-        return std::isfinite(norm(r));
-    }
+    bool plain_residual(const FreeEnd<double>& end, Mesh& mesh, double* r) const;
 
     double norm(const double* r) const {
         double worst = 0.0;
@@ -170,16 +159,7 @@ class NewtonSolver {
 
     static constexpr double LEAST_STRETCH = 0.2;  // linear elasticity means nothing at such compression
 
-    bool plain_march(Solution& solution, const Actuation<double>& at, BaseState<double>& base) {
-        March<double, double> march(robot, layout, at, shooting.full_options());
-        shooting.scale(march);
-        march.error_weight = shooting.error_weight;
-        march.adapt_tolerance = MESH_SLACK * (settings.fixed_steps > 0 ? 1e300 : settings.tolerance);
-        const bool found = march.run(solution.free_end, solution.mesh);
-        solution.mesh.fit();
-        base = march.base;
-        return found;
-    }
+    bool plain_march(Solution& solution, const Actuation<double>& at, BaseState<double>& base);
 
     void tell_shift(Solution& solution) {
         shooting.difference(marched_, solution.free_end, solution.mesh.shift);
@@ -188,22 +168,7 @@ class NewtonSolver {
 
     /// Steps with the neighbour's derivatives: for the change of the rotations, which needs no march, then for what one
     /// rough march without derivatives still misses.
-    void approach(const Solution& guess, Solution& solution) {
-        double missed[MAX_UNKNOWNS];
-        BaseState<double> met;  // the base the neighbour met: its own rotations, upright
-        for (int i = 0; i < robot.tube_count; ++i) met.psi[i] = guess.rotation[i];
-        for (int c = 0; c < 4; ++c) met.quaternion[c] = c == 0;
-        shooting.residual(met, actuation.rotation, missed);
-        step_with_neighbour(missed, solution);
-
-        March<double, double> march(robot, layout, actuation, shooting.newton_options());
-        shooting.scale(march);
-        march.solver.precision = Precision::rough;
-        tell_shift(solution);
-        if (!march.run(solution.free_end, solution.mesh)) return;
-        shooting.residual(march.base, actuation.rotation, missed);
-        step_with_neighbour(missed, solution);
-    }
+    void approach(const Solution& guess, Solution& solution);
 
     void step_with_neighbour(double (&missed)[MAX_UNKNOWNS], Solution& solution) const {
         double A[MAX_UNKNOWNS][MAX_UNKNOWNS];
@@ -216,55 +181,9 @@ class NewtonSolver {
     static constexpr double LONGEST_CHORD = 1.0;  // rad: of a step without derivatives of its own
 
     template <int K>
-    bool evaluate_lanes(Solution& solution, Kind kind) {
-        using T = Dual<K>;
-        const bool full = has_path(kind);
-        const MarchOptions options = full ? shooting.full_options() : shooting.newton_options();
-        March<T, double> march(robot, layout, actuation, options);
-        shooting.scale(march);
-        FreeEnd<T> end;
-        shooting.seed(solution.free_end, 0, end);
-        if (full) {
-            march.error_weight = shooting.error_weight;
-            march.error_lane = shooting.unknowns;
-        }
-        if (!is_firm(kind)) march.solver.precision = Precision::rough;
-        march.slope_lanes = shooting.unknowns;
-        tell_shift(solution);
-        if (!march.run(end, solution.mesh)) {
-            solution.shortest_tendon = smaller(solution.shortest_tendon, march.solver.shortest_tendon);
-            return false;
-        }
-        note(solution, march);
-        T r[MAX_UNKNOWNS];
-        shooting.residual(march.base, actuation.rotation, r);
-        for (int i = 0; i < shooting.unknowns; ++i) {
-            residual[i] = r[i].v;
-            if (!std::isfinite(r[i].v)) return false;
-            for (int j = 0; j < shooting.unknowns; ++j) {
-                solution.jacobian[i][j] = r[i].d[j];
-                if (!std::isfinite(r[i].d[j])) return false;
-            }
-        }
-        solution.base_residual = norm(residual);
-        if (full) read_tip(solution, march, end, r);
-        return true;
-    }
+    bool evaluate_lanes(Solution& solution, Kind kind);
 
-    bool check(Solution& solution) {
-        March<double, double> march(robot, layout, actuation, shooting.full_options());
-        shooting.scale(march);
-        march.solver.precision = Precision::checked;
-        tell_shift(solution);
-        if (!march.run(solution.free_end, solution.mesh)) return false;
-        shooting.residual(march.base, actuation.rotation, residual);
-        solution.base_residual = norm(residual);
-        if (!std::isfinite(solution.base_residual)) return false;
-        note(solution, march);
-        shooting.tip_pose(solution.free_end, march.base, actuation.rotation[0], solution.tip_position, solution.tip_quaternion);
-        solution.tendon_length = march.tendon_length;
-        return true;
-    }
+    bool check(Solution& solution);
 
     template <class M>
     static void note(Solution& solution, const M& march) {
@@ -274,34 +193,12 @@ class NewtonSolver {
     }
 
     template <class M, class T>
-    void read_tip(Solution& solution, const M& march, const FreeEnd<T>& end, const T* r) {
-        T position[3], quaternion[4];
-        shooting.tip_pose(end, march.base, actuation.rotation[0], position, quaternion);
-        const int e = shooting.unknowns;
-        double A[MAX_UNKNOWNS][MAX_UNKNOWNS], shift[MAX_UNKNOWNS];
-        for (int i = 0; i < e; ++i) {
-            shift[i] = r[i].d[e];
-            for (int j = 0; j < e; ++j) A[i][j] = solution.jacobian[i][j];
-        }
-        solution.base_determinant = solve_dense(e, A, shift);
-        const bool regular = solution.base_determinant != 0.0;
-        double error = 0.0;
-        for (int a = 0; a < 3; ++a) {
-            double d = position[a].d[e];
-            for (int j = 0; j < e; ++j) d -= position[a].d[j] * shift[j];
-            error += d * d;
-            solution.tip_position[a] = position[a].v;
-        }
-        for (int a = 0; a < 4; ++a) solution.tip_quaternion[a] = quaternion[a].v;
-        solution.discretisation_error = regular && std::isfinite(error) ? ERROR_SAFETY * std::sqrt(error) : UNKNOWN_ERROR;
-        section_error_ = march.section_error;
-        solution.tendon_length = march.tendon_length;
-    }
+    void read_tip(Solution& solution, const M& march, const FreeEnd<T>& end, const T* r);
 
     static constexpr double UNKNOWN_ERROR = 1e300;
     static constexpr double ERROR_SAFETY = 2.0;  // the embedded estimate, carried to the tip, underrates the coarsest meshes
 
-    std::vector<double> section_error_;
+    std::vector<double> section_error_, edge_error_;
 
     bool backtrack(Solution& solution, double* step, double size) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
@@ -344,7 +241,8 @@ class NewtonSolver {
 
     static constexpr double SINGLE_STEP_SHARE = 0.15;
 
-    /// More steps where the error comes from, as many as an eighth-order rule needs to bring the tip below tolerance.
+    /// More steps, or better graded ones, where the error comes from: as many as an eighth-order rule needs to bring the
+    /// tip below tolerance.
     bool refine(Solution& solution, double allowed) {
         double largest = 0.0;
         for (double error : section_error_) largest = larger(largest, error);
@@ -353,14 +251,31 @@ class NewtonSolver {
         for (size_t k = 0; k < section_error_.size(); ++k) {
             const double excess = ratio * section_error_[k] / largest;
             if (!(excess > 0.5)) continue;
-            const double factor = smaller(3.0, std::pow(excess, 0.125));
             const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
-            const int steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(factor * now))));
-            finer = finer || steps > now;
+            const double first = edge_error_[2 * k], last = edge_error_[2 * k + 1];
+            const double grade = solution.mesh.even_grade(k, now, first, last);
+            const double left = excess * error_left(now, solution.mesh.grade_of(k), grade, first, last);
+            int steps = now;
+            if (!(left < 0.7)) steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(smaller(3.0, std::pow(left, 0.125)) * now))));
+            finer = finer || steps > now || grade != solution.mesh.grade_of(k);
+            solution.mesh.grade[k] = solution.mesh.even_grade(k, steps, first, last);
             solution.mesh.steps[k] = steps;
         }
         solution.mesh.fit();
         return finer;
+    }
+
+    /// Share of a section's error that would be left with another grade, its density changing geometrically along it.
+    static double error_left(int n, double before, double after, double first, double last) {
+        if (n < 2 || before == after || !(first > 0.0) || !(last > 0.0)) return 1.0;
+        double old = 0.0, regraded = 0.0;
+        const auto length = [n](int i, double g) { return Mesh::share_before(i + 1, n, g) - Mesh::share_before(i, n, g); };
+        for (int i = 0; i < n; ++i) {
+            const double error = first * std::pow(last / first, static_cast<double>(i) / (n - 1));
+            old += error;
+            regraded += error * std::pow(length(i, after) / length(i, before), 9.0);
+        }
+        return regraded / old;
     }
 };
 

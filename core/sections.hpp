@@ -55,33 +55,45 @@ int slot_of(const Section<P>& section, int tube) {
 }
 
 /// Sorted breakpoints, those at one place as one; but where two at one place move apart they stay two, and between them
-/// lies a section of no length, which counts in the derivatives.
+/// lies a section of no length, which counts in the derivatives. Ends of tendons at one place stay together: what they
+/// hand over depends on who else ends there.
 template <class P>
 class Breakpoints {
   public:
     std::vector<P> s;
 
-    void add(const P& place) { s.push_back(place); }
+    void add(const P& place, bool tendon_end = false) { all_.push_back({place, tendon_end}); }
 
     void settle() {
-        std::stable_sort(s.begin(), s.end(), [](const P& a, const P& b) { return value(a) < value(b); });
+        std::stable_sort(all_.begin(), all_.end(), [](const Mark& a, const Mark& b) { return value(a.s) < value(b.s); });
         size_t kept = 0;
-        for (const P& place : std::vector<P>(s))
-            if (find(place, kept) < 0) s[kept++] = place;
-        s.resize(kept);
+        for (size_t i = 0; i < all_.size(); ++i)
+            if (find(all_[i], kept) < 0) all_[kept++] = all_[i];
+        all_.resize(kept);
+        for (const Mark& mark : all_) s.push_back(mark.s);
     }
 
     /// Index of a place that was added; -1 before all of them, their number beyond.
-    int at(const P& place) const {
-        const int found = find(place, s.size());
+    int at(const P& place, bool tendon_end = false) const {
+        const int found = find({place, tendon_end}, all_.size());
         return found >= 0 ? found : value(place) < value(s.front()) ? -1 : static_cast<int>(s.size());
     }
 
   private:
-    int find(const P& place, size_t count) const {
-        for (size_t k = 0; k < count; ++k)
-            if (std::fabs(value(place) - value(s[k])) <= BREAKPOINT_GAP && same_derivatives(place, s[k])) return static_cast<int>(k);
-        return -1;
+    struct Mark {
+        P s;
+        bool tendon_end;
+    };
+    std::vector<Mark> all_;
+
+    int find(const Mark& mark, size_t count) const {
+        int together = -1;
+        for (size_t k = 0; k < count; ++k) {
+            if (!(std::fabs(value(mark.s) - value(all_[k].s)) <= BREAKPOINT_GAP)) continue;
+            if (same_derivatives(mark.s, all_[k].s)) return static_cast<int>(k);
+            if (mark.tendon_end && all_[k].tendon_end) together = static_cast<int>(k);
+        }
+        return together;
     }
 };
 
@@ -143,7 +155,7 @@ class Cutter {
         for (int j = 0; j < robot_.tendon_count; ++j) {
             const TendonOf<C>& tendon = robot_.tendons[j];
             const P& base = translation_[tendon.tube];
-            breaks_.add(base + tendon.end);
+            breaks_.add(base + tendon.end, true);
             for (int k = tendon.piece_begin + 1; k < tendon.piece_end; ++k)
                 if (value(robot_.routing[k].start) < value(tendon.end)) breaks_.add(base + robot_.routing[k].start);
             for (int k = tendon.profile_begin + 1; k < tendon.profile_end; ++k)
@@ -189,7 +201,7 @@ class Cutter {
         for (int j = 0; j < robot_.tendon_count; ++j) {
             const TendonOf<C>& tendon = robot_.tendons[j];
             const P& base = translation_[tendon.tube];
-            if (!covers(k, base, base + tendon.end)) continue;
+            if (!(breaks_.at(base) <= k && breaks_.at(base + tendon.end, true) > k)) continue;
             Hosted hosted;
             hosted.tendon = j;
             hosted.slot = tendon.outermost ? 0 : slot_of(section, tendon.tube);

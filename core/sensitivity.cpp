@@ -132,7 +132,8 @@ class Sensitivity {
         for (int j = 0; j < tendons_; ++j) tension.push_back(seeded<K>(solution_.tension[j], actuators_ ? n_ + j : none, first));
         for (int i = 0; i < tubes_; ++i) {
             rotation.push_back(D(solution_.rotation[i]));
-            translation.push_back(seeded<K>(solution_.translation[i], actuators_ ? n_ + tendons_ + i : none, first));
+            const bool moves = actuators_ && (withdrawn_ < 0 || i == withdrawn_);
+            translation.push_back(seeded<K>(solution_.translation[i], moves ? n_ + tendons_ + i : none, first));
         }
         const Actuation<D> actuation{tension.data(), rotation.data(), translation.data(), 1.0, 1.0};
         const bool inside = wrench_ && request_.probe < value(plain_.sections.back().distal) - BREAKPOINT_GAP;
@@ -182,12 +183,14 @@ class Sensitivity {
         mesh.unknowns = 0;
         if (layout.sections.size() == plain_.sections.size()) return mesh;
         mesh.steps.clear();
+        mesh.grade.clear();
         mesh.strains.clear();
         for (const Section<P>& section : layout.sections) {
             const double length = value(section.distal) - value(section.proximal);
             const int k = plain_section_at(value(section.proximal) + 0.5 * length);
             const int steps = length > BREAKPOINT_GAP ? solution_.mesh.steps[k] : 1;
             mesh.steps.push_back(steps);
+            mesh.grade.push_back(steps == 1 ? 1.0 : solution_.mesh.grade_of(k));
             mesh.strains.insert(mesh.strains.end(), static_cast<size_t>(steps) * dp8::STAGES, strains_for(section, k));
         }
         mesh.warm = true;

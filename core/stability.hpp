@@ -9,16 +9,9 @@
 #include "free_end.hpp"
 #include "march.hpp"
 #include "solution.hpp"
+#include "stability_report.hpp"
 
 namespace tactr {
-
-/// From base to tip. determinant: of D(s), scaled to 1 at the tip; conjugate: where D loses a rank, once for each rank.
-struct StabilityReport {
-    bool stable = true;
-    double margin = 1.0;
-    int conjugate_count = 0;
-    std::vector<double> s, determinant, conjugate;
-};
 
 /// Watches a march whose first lanes are the free-end unknowns. samples: per step, 0 for the ends of the steps only.
 template <int K>
@@ -233,6 +226,8 @@ class StabilityPass {
         bool finer = false;
         for (size_t k = 0; k < error_.size(); ++k)
             if (error_[k] > tolerance && mesh.steps[k] < March<double, double>::MAX_STEPS) {
+                mesh.grade.resize(error_.size(), 1.0);
+                mesh.grade[k] = std::sqrt(mesh.grade[k]);
                 mesh.steps[k] *= 2;
                 finer = true;
             }
@@ -240,13 +235,5 @@ class StabilityPass {
         return finer;
     }
 };
-
-/// Stability of a solution at its own actuation.
-inline bool stability_of(const Robot& robot, const Solution& solution, int samples, StabilityReport& report) {
-    const Layout<double> layout = cut_into_sections(robot, solution.translation.data());
-    const Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
-    const Shooting shooting(robot, layout);
-    return StabilityPass(robot, actuation, layout, shooting).run(solution, samples, report);
-}
 
 }  // namespace tactr

@@ -1,5 +1,6 @@
 // What the march carries, and what surrounds it: free end, base, mesh.
 #pragma once
+#include <cmath>
 #include <type_traits>
 #include <vector>
 
@@ -53,11 +54,35 @@ struct BaseState {
 /// its sections from strains + slopes * shift.
 struct Mesh {
     std::vector<int> steps;
+    std::vector<double> grade;   // per section, length of a step over that of the one before, from the tip on; empty: 1
     std::vector<Strains> strains;
     std::vector<double> slopes;  // stage-major, unknowns innermost
     int unknowns = 0;            // 0: no slopes
     double shift[MAX_UNKNOWNS] = {};
     bool warm = false;
+
+    void cut(size_t sections, int steps_each) {
+        steps.assign(sections, steps_each);
+        grade.assign(sections, 1.0);
+    }
+
+    double grade_of(size_t section) const { return section < grade.size() ? grade[section] : 1.0; }
+
+    /// Share of the section that lies beyond step i of n, from its distal end.
+    static double share_before(int i, int n, double grade) {
+        if (std::fabs(grade - 1.0) < 1e-9) return static_cast<double>(i) / n;
+        return (1.0 - std::pow(grade, i)) / (1.0 - std::pow(grade, n));
+    }
+
+    /// The grade of n steps by which all of an eighth-order rule would err alike, from the errors of the first and the
+    /// last of the steps as they are.
+    double even_grade(size_t section, int n, double first_error, double last_error) const {
+        constexpr double MOST = 4.0;  // between the longest step and the shortest
+        const int now = steps[section];
+        if (now < 2 || n < 2 || !(first_error > 0.0) || !(last_error > 0.0)) return grade_of(section);
+        const double span = std::pow(grade_of(section), now - 1) * std::pow(first_error / last_error, 1.0 / 9.0);
+        return std::pow(larger(1.0 / MOST, smaller(MOST, span)), 1.0 / (n - 1));
+    }
 
     int total() const {
         int sum = 0;

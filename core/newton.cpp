@@ -1,0 +1,128 @@
+// The marches of Newton's iteration, in a translation unit of their own: compilers inline less in large ones.
+#include "newton.hpp"
+
+namespace tactr {
+
+template <class M, class T>
+void NewtonSolver::read_tip(Solution& solution, const M& march, const FreeEnd<T>& end, const T* r) {
+    T position[3], quaternion[4];
+    shooting.tip_pose(end, march.base, actuation.rotation[0], position, quaternion);
+    const int e = shooting.unknowns;
+    double A[MAX_UNKNOWNS][MAX_UNKNOWNS], shift[MAX_UNKNOWNS];
+    for (int i = 0; i < e; ++i) {
+        shift[i] = r[i].d[e];
+        for (int j = 0; j < e; ++j) A[i][j] = solution.jacobian[i][j];
+    }
+    solution.base_determinant = solve_dense(e, A, shift);
+    const bool regular = solution.base_determinant != 0.0;
+    double error = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        double d = position[a].d[e];
+        for (int j = 0; j < e; ++j) d -= position[a].d[j] * shift[j];
+        error += d * d;
+        solution.tip_position[a] = position[a].v;
+    }
+    for (int a = 0; a < 4; ++a) solution.tip_quaternion[a] = quaternion[a].v;
+    solution.discretisation_error = regular && std::isfinite(error) ? ERROR_SAFETY * std::sqrt(error) : UNKNOWN_ERROR;
+    section_error_ = march.section_error;
+    edge_error_ = march.edge_error;
+    solution.tendon_length = march.tendon_length;
+}
+
+template <int K>
+bool NewtonSolver::evaluate_lanes(Solution& solution, Kind kind) {
+    using T = Dual<K>;
+    const bool full = has_path(kind);
+    const MarchOptions options = full ? shooting.full_options() : shooting.newton_options();
+    March<T, double> march(robot, layout, actuation, options);
+    shooting.scale(march);
+    FreeEnd<T> end;
+    shooting.seed(solution.free_end, 0, end);
+    if (full) {
+        march.error_weight = shooting.error_weight;
+        march.error_lane = shooting.unknowns;
+    }
+    if (!is_firm(kind)) march.solver.precision = Precision::rough;
+    march.slope_lanes = shooting.unknowns;
+    tell_shift(solution);
+    if (!march.run(end, solution.mesh)) {
+        solution.shortest_tendon = smaller(solution.shortest_tendon, march.solver.shortest_tendon);
+        return false;
+    }
+    note(solution, march);
+    T r[MAX_UNKNOWNS];
+    shooting.residual(march.base, actuation.rotation, r);
+    for (int i = 0; i < shooting.unknowns; ++i) {
+        residual[i] = r[i].v;
+        if (!std::isfinite(r[i].v)) return false;
+        for (int j = 0; j < shooting.unknowns; ++j) {
+            solution.jacobian[i][j] = r[i].d[j];
+            if (!std::isfinite(r[i].d[j])) return false;
+        }
+    }
+    solution.base_residual = norm(residual);
+    if (full) read_tip(solution, march, end, r);
+    return true;
+}
+
+bool NewtonSolver::check(Solution& solution) {
+    March<double, double> march(robot, layout, actuation, shooting.full_options());
+    shooting.scale(march);
+    march.solver.precision = Precision::checked;
+    tell_shift(solution);
+    if (!march.run(solution.free_end, solution.mesh)) return false;
+    shooting.residual(march.base, actuation.rotation, residual);
+    solution.base_residual = norm(residual);
+    if (!std::isfinite(solution.base_residual)) return false;
+    note(solution, march);
+    shooting.tip_pose(solution.free_end, march.base, actuation.rotation[0], solution.tip_position, solution.tip_quaternion);
+    solution.tendon_length = march.tendon_length;
+    return true;
+}
+
+bool NewtonSolver::evaluate(Solution& solution, Kind kind) {
+    solution.steps_marched += solution.mesh.total();
+    ++solution.iterations;
+    kind_ = kind;
+    if (kind == Kind::check) return check(solution);
+    const int lanes = shooting.unknowns + (has_path(kind) ? 1 : 0);
+    return with_lanes(lanes, [&](auto count) { return evaluate_lanes<decltype(count)::value>(solution, kind); });
+}
+
+bool NewtonSolver::plain_residual(const FreeEnd<double>& end, Mesh& mesh, double* r) const {
+    March<double, double> march(robot, layout, actuation, shooting.newton_options());
+    shooting.scale(march);
+    if (!march.run(end, mesh)) return false;
+    shooting.residual(march.base, actuation.rotation, r);
+    return std::isfinite(norm(r));
+}
+
+bool NewtonSolver::plain_march(Solution& solution, const Actuation<double>& at, BaseState<double>& base) {
+    March<double, double> march(robot, layout, at, shooting.full_options());
+    shooting.scale(march);
+    march.error_weight = shooting.error_weight;
+    march.adapt_tolerance = MESH_SLACK * (settings.fixed_steps > 0 ? 1e300 : settings.tolerance);
+    const bool found = march.run(solution.free_end, solution.mesh);
+    solution.mesh.fit();
+    base = march.base;
+    return found;
+}
+
+void NewtonSolver::approach(const Solution& guess, Solution& solution) {
+    double missed[MAX_UNKNOWNS];
+    BaseState<double> met;  // the base the neighbour met: its own rotations, upright
+    for (int i = 0; i < robot.tube_count; ++i) met.psi[i] = guess.rotation[i];
+    for (int c = 0; c < 4; ++c) met.quaternion[c] = c == 0;
+    shooting.residual(met, actuation.rotation, missed);
+    step_with_neighbour(missed, solution);
+
+    March<double, double> march(robot, layout, actuation, shooting.newton_options());
+    shooting.scale(march);
+    march.solver.precision = Precision::rough;
+    tell_shift(solution);
+    if (!march.run(solution.free_end, solution.mesh)) return;
+    shooting.residual(march.base, actuation.rotation, missed);
+    step_with_neighbour(missed, solution);
+}
+
+}  // namespace tactr

@@ -1,0 +1,284 @@
+"""Exact derivatives against fourth-order differences of solves to rounding."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import tactr
+from tactr import (
+    Annulus,
+    Gravity,
+    Helix,
+    Material,
+    PointLoad,
+    RestShape,
+    Robot,
+    RobotError,
+    Rod,
+    Shape,
+    Straight,
+    Tendon,
+    Tube,
+    VaryingStiffness,
+)
+from tactr.statics.frames import rotation_matrices
+from tactr.statics.parameters import value_of, with_value
+
+NITINOL = Material(E=60e9, G=23e9, density=6450.0)
+RELATIVE = 1e-5
+TOLERANCE = 1e-11
+
+
+def tubes(translations: tuple[float, float, float], tips: tuple[float, float, float]) -> list[Tube]:
+    """Three precurved tubes, turned against each other."""
+    sections = (Annulus(0.0016, 0.0013), Annulus(0.0011, 0.0008), Annulus(0.0007, 0.0004))
+    rows = zip(sections, (2.0, 5.0, 8.0), (0.1, 0.7, -0.9), translations, tips, strict=True)
+    return [
+        Tube(
+            f"tube {i}",
+            length=tip - b,
+            section=section,
+            material=NITINOL,
+            precurvature=[(0.0, (0.0, 0.0, 0.0)), (0.04 + 0.005 * i - b, (curvature, 1.0, 0.5))],
+            rotation=rotation,
+            translation=b,
+        )
+        for i, (section, curvature, rotation, b, tip) in enumerate(rows)
+    ]
+
+
+def own_hosts() -> Robot:
+    """At the guide's exit, where only withdrawing is possible."""
+    tendons = [
+        Tendon("a", "tube 0", Straight(0.006, 0.0), tension=2.0),
+        Tendon("b", "tube 1", Helix(0.005, 20.0), tension=1.5, end=0.12),
+        Tendon("c", "tube 2", Helix(0.004, -30.0, 1.0), tension=0.5),
+    ]
+    return Robot(tubes((0.0, 0.0, 0.0), (0.1, 0.15, 0.2)), tendons)
+
+
+def other_hosts() -> Robot:
+    tendons = [
+        Tendon("a", "tube 1", Straight(0.006, 0.0), host="outermost", tension=1.0),
+        Tendon("b", "tube 2", Helix(0.005, 10.0), host="outermost", tension=1.0),
+    ]
+    return Robot(tubes((0.0, 0.0, 0.0), (0.1, 0.15, 0.2)), tendons)
+
+
+def pushed_and_loaded() -> Robot:
+    loads = [
+        PointLoad("tube 2", force=(0.05, -0.02, 0.03), moment=(1e-3, 0.0, 5e-4)),
+        Gravity((0.0, 9.81, 0.0)),
+    ]
+    tendons = [Tendon("a", "tube 0", Straight(0.0, 0.006), tension=1.0)]
+    return Robot(tubes((-0.05, -0.11, -0.2), (0.1, 0.15, 0.2)), tendons, loads)
+
+
+def inner_withdrawn() -> Robot:
+    """The inner tube ends inside the outer ones."""
+    return Robot(
+        tubes((-0.05, -0.11, -0.2), (0.12, 0.15, 0.07)), [Tendon("a", "tube 1", Straight(0.006, 0.0), tension=1.0)]
+    )
+
+
+def smooth_tube() -> Robot:
+    taper = VaryingStiffness.function(lambda s: Rod(1.2e-3 - 2e-3 * s), 0.21, material=NITINOL)
+    rest = RestShape.helix(0.02, 0.08)
+    tube = Tube("taper", length=0.2, section=taper, precurvature=rest, translation=-0.03)
+    return Robot([tube], [Tendon("a", "taper", Helix(0.004, 15.0), tension=1.0)])
+
+
+ROBOTS = [own_hosts, other_hosts, pushed_and_loaded, inner_withdrawn, smooth_tube]
+
+
+@functools.cache
+def solved(build: Callable[[], Robot]) -> Shape:
+    shape = tactr.solve(build(), tolerance=TOLERANCE)
+    assert shape.converged, shape.message
+    return shape
+
+
+def pose(shape: Shape, s: float | None) -> tuple[np.ndarray, np.ndarray]:
+    if s is None:
+        return shape.tip_position, shape.tip_orientation
+    here = [tube for tube in shape.sample([s]).tubes if len(tube.s)][-1]
+    return here.position[0], here.frames[0]
+
+
+def motion(start: Shape, end: Shape, s: float | None) -> np.ndarray:
+    (p0, R0), (p1, R1) = pose(start, s), pose(end, s)
+    turn = R1 @ R0.T
+    axis = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    sine = float(np.linalg.norm(axis))
+    return np.concatenate([p1 - p0, axis if sine < 1e-12 else axis * (np.arcsin(sine) / sine)])
+
+
+def differences(at: Callable[[float], Shape], step: float, s: float | None = None, *, back: bool = False) -> np.ndarray:
+    """Central, or back: one-sided where the robot ends on the other side."""
+    if back:
+        start = at(0.0)
+        weights = {-1: -4.0, -2: 3.0, -3: -4 / 3, -4: 1 / 4}
+        return sum(w * motion(start, at(k * step), s) for k, w in weights.items()) / step
+    near, far = (motion(at(-k * step), at(k * step), s) / (2 * k * step) for k in (1, 2))
+    return (4 * near - far) / 3
+
+
+def same(exact: np.ndarray, expected: np.ndarray) -> None:
+    for rows in (slice(0, 3), slice(3, 6)):
+        size = max(np.abs(expected[rows]).max(), 1e-6)
+        np.testing.assert_allclose(exact[rows], expected[rows], rtol=0.0, atol=RELATIVE * size)
+
+
+@pytest.mark.parametrize("place", [None, 0.063])
+@pytest.mark.parametrize("build", ROBOTS, ids=lambda build: build.__name__)
+def test_every_actuator(build: Callable[[], Robot], place: float | None) -> None:
+    shape = solved(build)
+    jacobian = shape.tip_jacobian() if place is None else shape.jacobian(place)
+
+    def solve(**actuation: dict[str, float]) -> Shape:
+        moved = tactr.solve(shape.robot, guess=shape, tolerance=TOLERANCE, **actuation)
+        assert moved.converged, moved.message
+        return moved
+
+    for j, tendon in enumerate(shape.robot.tendons):
+        value = float(tendon.tension)  # type: ignore[arg-type]
+        same(
+            jacobian.tension[:, j],
+            differences(lambda h: solve(tension={tendon.name: value + h}), 1e-3, place),
+        )
+    for i, tube in enumerate(shape.robot.tubes):
+        same(
+            jacobian.rotation[:, i],
+            differences(lambda h: solve(rotation={tube.name: tube.rotation + h}), 1e-3, place),
+        )
+        same(
+            jacobian.translation[:, i],
+            differences(
+                lambda h: solve(translation={tube.name: tube.translation + h}),
+                2e-5,
+                place,
+                back=tube.translation == 0.0,
+            ),
+        )
+
+
+PARAMETERS = {
+    own_hosts: [
+        "tubes.tube 0.length",
+        "tubes.tube 1.length",
+        "tubes.tube 2.length",
+        "tubes.tube 1.material.E",
+        "tubes.tube 2.material.G",
+        "tubes.tube 0.section.outer_diameter",
+        "tubes.tube 2.precurvature.1.1.y",
+        "tubes.tube 1.precurvature.1.1.z",
+        "tubes.tube 1.precurvature.1.0",
+        "tendons.a.routing.x",
+        "tendons.b.routing.radius",
+        "tendons.b.routing.rate",
+        "tendons.b.end",
+    ],
+    pushed_and_loaded: ["tubes.tube 1.material.density", "loads.0.force.x", "loads.0.moment.z", "loads.1.acceleration.y"],
+    smooth_tube: ["tubes.taper.length", "tendons.a.routing.phase"],
+}
+
+
+@pytest.mark.parametrize(
+    ("build", "path"), [(build, path) for build, paths in PARAMETERS.items() for path in paths]
+)
+def test_every_kind_of_parameter(build: Callable[[], Robot], path: str) -> None:
+    shape = solved(build)
+    value = value_of(shape.robot, path)
+
+    def at(h: float) -> Shape:
+        return tactr.solve(with_value(shape.robot, path, value + h), tolerance=TOLERANCE)
+
+    step = 1e-3 * abs(value) if value else 1e-5
+    same(shape.sensitivity([path])[:, 0], differences(at, step))
+
+
+def test_parameters_come_in_the_order_asked_for() -> None:
+    shape = solved(own_hosts)
+    paths = ["tendons.a.routing.x", "tubes.tube 1.rotation", "tubes.tube 1.length", "tendons.c.tension"]
+    together = shape.sensitivity(paths, s=[0.05, 0.12])
+    assert together.shape == (2, 6, 4)
+    for k, path in enumerate(paths):
+        np.testing.assert_allclose(together[..., k], shape.sensitivity([path], s=[0.05, 0.12])[..., 0], rtol=1e-9)
+    np.testing.assert_allclose(together[..., 1], shape.jacobian([0.05, 0.12]).rotation[..., 1], rtol=1e-9)
+
+
+@pytest.mark.parametrize(("path", "told"), [
+    ("tubes.tube 9.length", "tube 0, tube 1, tube 2"),
+    ("tubes.tube 0.colour", "material"),
+    ("tubes.tube 0.material", "not a number"),
+])  # fmt: skip
+def test_a_wrong_path_is_told(path: str, told: str) -> None:
+    with pytest.raises(RobotError, match=told):
+        solved(own_hosts).sensitivity([path])
+
+
+def test_compliance_of_a_straight_rod() -> None:
+    """Of a cantilever: L^3 / 3EI + L / GA, L^2 / 2EI, L / EI, L / EA, L / GJ."""
+    rod = Tube("rod", length=0.2, section=Rod(0.001), material=NITINOL)
+    k, L = rod.stiffness, 0.15
+    shape = tactr.solve(Robot([rod]), tolerance=1e-12)
+    bend, turn, both = L**3 / (3 * k.EI_x) + L / k.GA, L / k.EI_x, L**2 / (2 * k.EI_x)
+    expected = np.diag([bend, bend, L / k.EA, turn, turn, L / k.GJ])
+    expected[0, 4] = expected[4, 0] = both
+    expected[1, 3] = expected[3, 1] = -both
+    np.testing.assert_allclose(shape.compliance(L), expected, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("build", [own_hosts, pushed_and_loaded])
+def test_compliance_at_the_tip_against_loads(build: Callable[[], Robot]) -> None:
+    shape = solved(build)
+    compliance = shape.compliance()
+    last = shape.robot.tubes[-1].name
+    for row, field in ((0, "force"), (3, "moment")):
+        for axis in range(3):
+
+            def at(h: float, field: str = field, axis: int = axis) -> Shape:
+                extra = PointLoad(last, **{field: tuple(h * (a == axis) for a in range(3))})
+                loaded = shape.robot.replace(loads=(*shape.robot.loads, extra))
+                return tactr.solve(loaded, tolerance=TOLERANCE)
+
+            same(compliance[:, row + axis], differences(at, 1e-3 if field == "force" else 1e-4))
+
+
+def test_body_axes_are_those_of_the_innermost_tube() -> None:
+    shape = solved(pushed_and_loaded)
+    R = rotation_matrices(shape.tip_quaternion)
+    block = np.kron(np.eye(2), R)
+    world, body = shape.tip_jacobian(), shape.tip_jacobian(axes="body")
+    np.testing.assert_allclose(block @ body.rotation, world.rotation, atol=1e-12)
+    np.testing.assert_allclose(block @ shape.compliance(axes="body") @ block.T, shape.compliance(), atol=1e-12)
+    inside = [tube for tube in shape.sample([0.063]).tubes if len(tube.s)][-1]
+    block = np.kron(np.eye(2), inside.frames[0])
+    np.testing.assert_allclose(
+        block @ shape.jacobian(0.063, axes="body").tension, shape.jacobian(0.063).tension, atol=1e-12
+    )
+
+
+def test_nothing_moves_at_the_exit_and_no_place_is_off_the_robot() -> None:
+    shape = solved(own_hosts)
+    assert not np.any(shape.jacobian(0.0).tension) and not np.any(shape.compliance(0.0))
+    with pytest.raises(RobotError, match="not on the robot"):
+        shape.jacobian(0.3)
+
+
+def test_derivatives_pass_where_tube_ends_pass_each_other() -> None:
+    """A tip passes another's: the tip's derivative with respect to a tension goes on without a jump."""
+    robot = own_hosts().with_actuation(translation={"tube 2": -0.03})
+    reach = robot.tubes[0].tip
+
+    def column(shift: float) -> np.ndarray:
+        middle = robot.with_actuation(translation={"tube 1": reach - robot.tubes[1].length + shift})
+        return tactr.solve(middle, tolerance=TOLERANCE).tip_jacobian().tension[:, 0]
+
+    near = [np.abs(column(h) - column(-h)).max() for h in (1e-4, 1e-5, 1e-6)]
+    size = np.abs(column(1e-6)).max()
+    assert near[2] < 2e-4 * size and near[0] > 5 * near[1] > 25 * near[2]
