@@ -63,7 +63,7 @@ def sensitivities(
     probe: float,
     rates: list[PreparedRobot],
 ) -> np.ndarray:
-    """Exact derivatives: rows tip, stations, lengths; columns tensions, rotations, translations, wrench, parameters."""
+    """Exact derivatives. Rows: tip, stations, lengths; columns: actuators, wrench, parameters."""
 
 def length_jacobian(robot: PreparedRobot, solution: Solution) -> np.ndarray:
     """d(tendon lengths)/d(tensions)."""

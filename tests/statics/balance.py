@@ -50,7 +50,7 @@ def carried(shape: Shape, i: int) -> Carried:
 def breakpoints(robot: Robot) -> np.ndarray:
     """All s > 0 (m) where something begins or ends, the tips too."""
     places = [tube.tip for tube in robot.tubes]
-    places += [tube.translation + start for tube in robot.tubes for start, _ in tube.precurvature]
+    places += [tube.translation + stretch.start for tube in robot.tubes for stretch in tube.stretches]
     places += [robot.tube(t.tube).translation + t.end for t in robot.tendons if t.end is not None]
     return np.unique(np.round([s for s in places if s > 1e-9], 12))
 

@@ -12,14 +12,16 @@ import tactr
 from tactr import PointLoad, Robot, RobotError, Stiffness, Straight, Tendon, TensionProfile, Tube
 from tactr.statics import Shape, Work
 
-SECTION = {"GJ": 4e-3, "EA": 2e7, "GA": 8e6}
+
+def section(EI: float) -> Stiffness:
+    return Stiffness(EI_x=EI, EI_y=EI, GJ=4e-3, EA=2e7, GA=8e6)
 
 
 def robot(tension: float | TensionProfile = 1.0, end: float | None = None) -> Robot:
     tubes = [
-        Tube("outer", length=0.12, section=Stiffness(EI_x=5e-3, EI_y=5e-3, **SECTION), precurvature=(4, 2, 1),
+        Tube("outer", length=0.12, section=section(5e-3), precurvature=(4, 2, 1),
              translation=-0.03),
-        Tube("inner", length=0.2, section=Stiffness(EI_x=3e-3, EI_y=3e-3, **SECTION), precurvature=(0, 9, 0),
+        Tube("inner", length=0.2, section=section(3e-3), precurvature=(0, 9, 0),
              translation=-0.06),
     ]  # fmt: skip
     tendons = [Tendon("t", "inner", Straight(0.004, 0.001), tension=tension, end=end)]
@@ -65,7 +67,7 @@ def test_work_is_stored(name: str) -> None:
 
 def test_work_of_a_tendon_at_an_offset() -> None:
     """Bent by lambda r: lambda^2 r^2 l / (2 EI); straight lines are integrated exactly."""
-    rod = Tube("rod", length=0.1, section=Stiffness(EI_x=5e-3, EI_y=5e-3, **SECTION))
+    rod = Tube("rod", length=0.1, section=section(5e-3))
     described = Robot([rod], [Tendon("t", "rod", Straight(0.005, 0.0))])
     found = tactr.work([tactr.solve(described, tension=[tension]) for tension in (0.0, 1.0, 3.0)])
     expected = 9 * 0.005**2 * 0.1 / (2 * 5e-3) + 9 * 0.1 / (2 * 2e7)

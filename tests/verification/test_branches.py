@@ -142,7 +142,10 @@ def test_signs_of_the_determinants_add_up_to_one(name: str) -> None:
             assert (np.sign(shape.stability.determinant[0]) > 0) == (
                 len(shape.stability.conjugate_points) % 2 == 0
             )
-        assert shapes[0].potential_energy == min(shape.potential_energy for shape in shapes) and shapes[0].stability.stable
+        assert (
+            shapes[0].potential_energy == min(shape.potential_energy for shape in shapes)
+            and shapes[0].stability.stable
+        )
         counts.append(len(shapes))
     assert max(counts) > 1
 
@@ -151,7 +154,9 @@ def test_more_samples_find_no_more() -> None:
     robot = ctr((0.0, 2.9, -2.7))
     few, many = tactr.branches(robot), tactr.branches(robot, samples=2500)
     assert len(few) == len(many) > 1
-    np.testing.assert_allclose([s.potential_energy for s in few], [s.potential_energy for s in many], rtol=1e-6)
+    np.testing.assert_allclose(
+        [s.potential_energy for s in few], [s.potential_energy for s in many], rtol=1e-6
+    )
 
 
 def test_one_tube_without_loads_has_one_shape() -> None:

@@ -81,7 +81,8 @@ def pushed_and_loaded() -> Robot:
 def inner_withdrawn() -> Robot:
     """The inner tube ends inside the outer ones."""
     return Robot(
-        tubes((-0.05, -0.11, -0.2), (0.12, 0.15, 0.07)), [Tendon("a", "tube 1", Straight(0.006, 0.0), tension=1.0)]
+        tubes((-0.05, -0.11, -0.2), (0.12, 0.15, 0.07)),
+        [Tendon("a", "tube 1", Straight(0.006, 0.0), tension=1.0)],
     )
 
 
@@ -117,12 +118,14 @@ def motion(start: Shape, end: Shape, s: float | None) -> np.ndarray:
     return np.concatenate([p1 - p0, axis if sine < 1e-12 else axis * (np.arcsin(sine) / sine)])
 
 
-def differences(at: Callable[[float], Shape], step: float, s: float | None = None, *, back: bool = False) -> np.ndarray:
+def differences(
+    at: Callable[[float], Shape], step: float, s: float | None = None, *, back: bool = False
+) -> np.ndarray:
     """Central, or back: one-sided where the robot ends on the other side."""
     if back:
         start = at(0.0)
         weights = {-1: -4.0, -2: 3.0, -3: -4 / 3, -4: 1 / 4}
-        return sum(w * motion(start, at(k * step), s) for k, w in weights.items()) / step
+        return np.sum([w * motion(start, at(k * step), s) for k, w in weights.items()], axis=0) / step
     near, far = (motion(at(-k * step), at(k * step), s) / (2 * k * step) for k in (1, 2))
     return (4 * near - far) / 3
 
@@ -139,31 +142,25 @@ def test_every_actuator(build: Callable[[], Robot], place: float | None) -> None
     shape = solved(build)
     jacobian = shape.tip_jacobian() if place is None else shape.jacobian(place)
 
-    def solve(**actuation: dict[str, float]) -> Shape:
-        moved = tactr.solve(shape.robot, guess=shape, tolerance=TOLERANCE, **actuation)
-        assert moved.converged, moved.message
-        return moved
+    def moved(kind: str, name: str, value: float) -> Callable[[float], Shape]:
+        def at(h: float) -> Shape:
+            robot = shape.robot.with_actuation(**{kind: {name: value + h}})
+            found = tactr.solve(robot, guess=shape, tolerance=TOLERANCE)
+            assert found.converged, found.message
+            return found
+
+        return at
 
     for j, tendon in enumerate(shape.robot.tendons):
-        value = float(tendon.tension)  # type: ignore[arg-type]
-        same(
-            jacobian.tension[:, j],
-            differences(lambda h: solve(tension={tendon.name: value + h}), 1e-3, place),
-        )
+        assert isinstance(tendon.tension, float)
+        expected = differences(moved("tension", tendon.name, tendon.tension), 1e-3, place)
+        same(jacobian.tension[:, j], expected)
     for i, tube in enumerate(shape.robot.tubes):
-        same(
-            jacobian.rotation[:, i],
-            differences(lambda h: solve(rotation={tube.name: tube.rotation + h}), 1e-3, place),
-        )
-        same(
-            jacobian.translation[:, i],
-            differences(
-                lambda h: solve(translation={tube.name: tube.translation + h}),
-                2e-5,
-                place,
-                back=tube.translation == 0.0,
-            ),
-        )
+        expected = differences(moved("rotation", tube.name, tube.rotation), 1e-3, place)
+        same(jacobian.rotation[:, i], expected)
+        back = tube.translation == 0.0
+        expected = differences(moved("translation", tube.name, tube.translation), 2e-5, place, back=back)
+        same(jacobian.translation[:, i], expected)
 
 
 PARAMETERS = {
@@ -182,7 +179,12 @@ PARAMETERS = {
         "tendons.b.routing.rate",
         "tendons.b.end",
     ],
-    pushed_and_loaded: ["tubes.tube 1.material.density", "loads.0.force.x", "loads.0.moment.z", "loads.1.acceleration.y"],
+    pushed_and_loaded: [
+        "tubes.tube 1.material.density",
+        "loads.0.force.x",
+        "loads.0.moment.z",
+        "loads.1.acceleration.y",
+    ],
     smooth_tube: ["tubes.taper.length", "tendons.a.routing.phase"],
 }
 
@@ -204,11 +206,14 @@ def test_every_kind_of_parameter(build: Callable[[], Robot], path: str) -> None:
 def test_parameters_come_in_the_order_asked_for() -> None:
     shape = solved(own_hosts)
     paths = ["tendons.a.routing.x", "tubes.tube 1.rotation", "tubes.tube 1.length", "tendons.c.tension"]
-    together = shape.sensitivity(paths, s=[0.05, 0.12])
+    places = [0.05, 0.12]
+    together = shape.sensitivity(paths, s=places)
     assert together.shape == (2, 6, 4)
     for k, path in enumerate(paths):
-        np.testing.assert_allclose(together[..., k], shape.sensitivity([path], s=[0.05, 0.12])[..., 0], rtol=1e-9)
-    np.testing.assert_allclose(together[..., 1], shape.jacobian([0.05, 0.12]).rotation[..., 1], rtol=1e-9)
+        np.testing.assert_allclose(
+            together[..., k], shape.sensitivity([path], s=[0.05, 0.12])[..., 0], rtol=1e-9
+        )
+    np.testing.assert_allclose(together[..., 1], shape.jacobian(places).rotation[..., 1], rtol=1e-9)
 
 
 @pytest.mark.parametrize(("path", "told"), [
@@ -238,15 +243,16 @@ def test_compliance_at_the_tip_against_loads(build: Callable[[], Robot]) -> None
     shape = solved(build)
     compliance = shape.compliance()
     last = shape.robot.tubes[-1].name
-    for row, field in ((0, "force"), (3, "moment")):
-        for axis in range(3):
+    for row in range(6):
 
-            def at(h: float, field: str = field, axis: int = axis) -> Shape:
-                extra = PointLoad(last, **{field: tuple(h * (a == axis) for a in range(3))})
-                loaded = shape.robot.replace(loads=(*shape.robot.loads, extra))
-                return tactr.solve(loaded, tolerance=TOLERANCE)
+        def at(h: float, row: int = row) -> Shape:
+            wrench = h * np.eye(6)[row]
+            (fx, fy, fz), (mx, my, mz) = wrench[:3], wrench[3:]
+            extra = PointLoad(last, force=(fx, fy, fz), moment=(mx, my, mz))
+            loaded = shape.robot.replace(loads=(*shape.robot.loads, extra))
+            return tactr.solve(loaded, tolerance=TOLERANCE)
 
-            same(compliance[:, row + axis], differences(at, 1e-3 if field == "force" else 1e-4))
+        same(compliance[:, row], differences(at, 1e-3 if row < 3 else 1e-4))
 
 
 def test_body_axes_are_those_of_the_innermost_tube() -> None:
@@ -255,7 +261,9 @@ def test_body_axes_are_those_of_the_innermost_tube() -> None:
     block = np.kron(np.eye(2), R)
     world, body = shape.tip_jacobian(), shape.tip_jacobian(axes="body")
     np.testing.assert_allclose(block @ body.rotation, world.rotation, atol=1e-12)
-    np.testing.assert_allclose(block @ shape.compliance(axes="body") @ block.T, shape.compliance(), atol=1e-12)
+    np.testing.assert_allclose(
+        block @ shape.compliance(axes="body") @ block.T, shape.compliance(), atol=1e-12
+    )
     inside = [tube for tube in shape.sample([0.063]).tubes if len(tube.s)][-1]
     block = np.kron(np.eye(2), inside.frames[0])
     np.testing.assert_allclose(

@@ -24,21 +24,21 @@ def assemble(robot: Robot) -> _core.PreparedRobot:
 def tables(robot: Robot) -> dict[str, np.ndarray]:
     """Tubes, pieces of tubes, tendons, routing, tension profiles and loads as numbers, a row for each."""
     index = {tube.name: i for i, tube in enumerate(robot.tubes)}
-    return dict(
-        tubes=_table([_tube_row(tube) for tube in robot.tubes], 3),
-        pieces=_table(
+    return {
+        "tubes": _table([_tube_row(tube) for tube in robot.tubes], 3),
+        "pieces": _table(
             [row for tube in robot.tubes for row in _piece_rows(tube)], 2 + QUANTITIES * TUBE_COEFFICIENTS
         ),
-        tendons=_table([_tendon_row(robot, tendon, index) for tendon in robot.tendons], 5),
-        routing=_table(
+        "tendons": _table([_tendon_row(robot, tendon, index) for tendon in robot.tendons], 5),
+        "routing": _table(
             [row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS
         ),
-        profiles=_table([row for tendon in robot.tendons for row in _profile_rows(tendon)], 6),
-        point_loads=_table(
+        "profiles": _table([row for tendon in robot.tendons for row in _profile_rows(tendon)], 6),
+        "point_loads": _table(
             [_point_row(robot, load, index) for load in robot.loads if isinstance(load, PointLoad)], 9
         ),
-        distributed_loads=_table(_distributed_rows(robot, index), 10),
-    )
+        "distributed_loads": _table(_distributed_rows(robot, index), 10),
+    }
 
 
 def base_tension(tendon: Tendon) -> float:

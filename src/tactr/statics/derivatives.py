@@ -1,8 +1,8 @@
 """Exact derivatives of a shape with respect to actuators, loads and the robot's own parameters.
 
-All come from one more march in dual numbers and the implicit function theorem at the base. A small motion is a
-column of six: shift of the point (m), then rotation (rad). Axes are "world", or "body": those of the material
-frame of the innermost tube at the point.
+All come from one more march in dual numbers and the implicit function theorem at the base. A small motion
+is a column of six: shift of the point (m), then rotation (rad). Axes are "world", or "body": those of the
+material frame of the innermost tube at the point.
 """
 
 from __future__ import annotations
@@ -26,13 +26,14 @@ Axes = Literal["world", "body"]
 
 
 class Jacobian(NamedTuple):
-    """Derivatives of a point's pose: six rows, its shift (m) and its rotation (rad); k first where there are k points.
+    """Derivatives of a point's pose, six rows: its shift (m) and rotation (rad). Of k points: k first.
 
-    tension (..., 6, tendons), per N; rotation (..., 6, tubes), per rad; translation (..., 6, tubes), per m: at
-    the present tensions of all tendons, also of those pulled by displacements. A tendon with a TensionProfile
-    counts per unit of a factor on the whole profile. displacement (..., 6, tendons), per m: the motors of the
-    other tendons pulled by displacements held; 0 for slack tendons and for those pulled by a tension. Where a
-    slack tendon is about to be taut it is the derivative on the slack side.
+    tension (..., 6, tendons), per N; rotation (..., 6, tubes), per rad; translation (..., 6, tubes), per m:
+    at the present tensions of all tendons, also of those pulled by displacements. A tendon with a
+    TensionProfile counts per unit of a factor on the whole profile. displacement (..., 6, tendons), per m:
+    the motors of all tendons pulled by displacements held but one, the other tendons at their tension; 0 for
+    slack tendons and for those pulled by a tension. Where a slack tendon is about to be taut it is the
+    derivative on the slack side.
     """
 
     tension: np.ndarray
@@ -62,40 +63,39 @@ class Derivatives:
     def tip_jacobian(self, *, axes: Axes = "world") -> Jacobian:
         """Derivatives of the tip with respect to tensions, rotations, translations and displacements.
 
-        The tip is the distal end of the robot, a material point: it moves with its tube. Where a tube's end or a
-        step in its shape meets another breakpoint, the shape has a corner in its translation and the derivative
-        is one-sided: where proximal ends meet each other or the guide's exit, that for withdrawing the tube.
+        The tip is the distal end of the robot, a material point: it moves with its tube. Where a tube's end
+        or a step in its shape meets another breakpoint, the shape has a corner in its translation and the
+        derivative is one-sided: where proximal ends meet each other or the guide's exit, for withdrawing.
         Raises NotConverged.
         """
         matrix = self._matrix((), actuators=True)
         return self._split(_turned(matrix, self._frames_at((), axes))[0])
 
     def jacobian(self, s: float | Sequence[float] | np.ndarray, *, axes: Axes = "world") -> Jacobian:
-        """The same for the points at s, (k,), m from the guide's exit, which stay at their s (k absent for a number)."""
+        """The same for the points at s, (k,) m from the guide's exit, or one number.
+
+        They stay at their s where tubes are pushed. Raises NotConverged, RobotError for an s off the robot.
+        """
         places = _places(s)
         matrix = self._matrix(places, actuators=True)
         moved = _turned(matrix, self._frames_at(places, axes))[1:]
         return self._split(moved[0] if np.ndim(s) == 0 else moved)
 
     def compliance(self, s: float | None = None, *, axes: Axes = "world") -> np.ndarray:
-        """Motion of the point at s per wrench (force in N, moment in N m) at it, (6, 6), both in the same axes.
+        """Motion of the point at s per wrench at it (force in N, then moment in N m), (6, 6), same axes.
 
-        s: m from the guide's exit; None for the tip. The wrench acts on the innermost tube there, tensions,
-        rotations and translations held. Symmetric where all loads are dead forces and the shape follows from an
-        energy. Raises NotConverged, RobotError for an s outside the robot.
+        s: m from the guide's exit; None for the tip. The wrench acts on the innermost tube there; tensions,
+        rotations and translations are held. Symmetric where all loads are dead forces and the shape follows
+        from an energy. Raises NotConverged, RobotError for an s off the robot.
         """
         self._require_convergence()
         reach = max(tube.tip for tube in self.robot.tubes)
-        at_tip = s is None or s >= reach
         place = reach if s is None else check.real("s", s, "m", least=0, most=reach)
         if place == 0.0:
             return np.zeros((6, 6))
-        places = np.array([] if at_tip else [place])
-        matrix = self._matrix(places, probe=place)[-1]
-        if axes == "world":
-            return matrix
-        frames = self._frames_at(places, axes)
-        return _block(frames[-1]).T @ matrix @ _block(frames[-1])
+        places = np.array([place] if place < reach else [])
+        matrix, frames = self._matrix(places, probe=place)[-1], self._frames_at(places, axes)
+        return matrix if frames is None else _block(frames[-1]).T @ matrix @ _block(frames[-1])
 
     def sensitivity(
         self,
@@ -104,13 +104,14 @@ class Derivatives:
         s: float | Sequence[float] | np.ndarray | None = None,
         axes: Axes = "world",
     ) -> np.ndarray:
-        """Derivatives with respect to numbers of the robot's description, (6, parameters); (k, 6, ...) at k places s.
+        """Derivatives with respect to numbers of the robot's description, (6, parameters).
 
-        parameters: paths such as "tubes.outer.length", "tubes.outer.material.E", "tubes.inner.precurvature.0.x",
-        "tendons.pull.routing.radius", "loads.0.force.z", "tendons.pull.tension"; each in the unit that it has in
-        the description. The mechanics is differentiated exactly; from the description to the kernel's tables the
-        differences are of 1e-10 (see ``tactr.statics.parameters``). s: m from the guide's exit, None for the tip.
-        Raises NotConverged, RobotError for an unknown path.
+        parameters: paths such as "tubes.outer.length", "tubes.outer.material.E",
+        "tubes.inner.precurvature.0.1.x", "tendons.pull.routing.radius", "loads.0.force.z",
+        "tendons.pull.tension"; each in the unit that it has in the description. The mechanics is differentiated
+        exactly; from the description to the kernel's tables by differences to 1e-10 (see
+        ``tactr.statics.parameters``). s: m from the guide's exit, None for the tip, k places give (k, 6,
+        parameters). Raises NotConverged, RobotError for an unknown path.
         """
         self._require_convergence()
         robot, places = self.robot, np.array([]) if s is None else _places(s)
@@ -118,8 +119,7 @@ class Derivatives:
         rates = [rates_of(robot, path) for path, column in held.items() if column is None]
         matrix = self._matrix(places, actuators=True, rates=rates)
         after = iter(range(matrix.shape[-1] - len(rates), matrix.shape[-1]))
-        columns = [next(after) if held[path] is None else held[path] for path in held]
-        order = {path: column for path, column in zip(held, columns, strict=True)}
+        order = {path: next(after) if column is None else column for path, column in held.items()}
         picked = matrix[..., [order[path] for path in parameters]]
         turned = _turned(picked, self._frames_at(places, axes))
         if s is None:
@@ -140,7 +140,9 @@ class Derivatives:
         reach = max(tube.tip for tube in self.robot.tubes)
         if s.size and not (np.isfinite(s).all() and s.min() >= 0.0 and s.max() <= reach * (1 + 1e-12)):
             worst = s[np.argmax(~((s >= 0) & (s <= reach)))]
-            raise RobotError("s", f"{check.show(float(worst), 'm')} is not on the robot", f"0 to {reach:g} m", value=worst)
+            raise RobotError(
+                "s", f"{check.show(float(worst), 'm')} is not on the robot", f"0 to {reach:g} m", value=worst
+            )
         outside = np.flatnonzero(s > 0.0)
         order = outside[np.argsort(s[outside], kind="stable")]
         found = _core.sensitivities(

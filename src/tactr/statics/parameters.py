@@ -39,7 +39,9 @@ def value_of(robot: Robot, path: str) -> float:
     for k, step in enumerate(steps):
         found = _child(found, step, path, steps[:k])
     if isinstance(found, bool) or not isinstance(found, int | float):
-        raise RobotError(path, f"{found!r} is not a number", "the path of one number of the robot", value=path)
+        raise RobotError(
+            path, f"{found!r} is not a number", "the path of one number of the robot", value=path
+        )
     return float(found)
 
 
@@ -97,7 +99,9 @@ def _weighted(
     moved: dict[int, Tables], weights: dict[int, float], name: str, base: np.ndarray, step: float
 ) -> np.ndarray:
     if any(other[name].shape != base.shape for other in moved.values()):
-        raise RobotError(name, "it is cut into other pieces when the number changes", "a number that keeps them")
+        raise RobotError(
+            name, "it is cut into other pieces when the number changes", "a number that keeps them"
+        )
     ends = np.isfinite(base)
     rates = np.zeros_like(base)
     rates[ends] = sum(weight * moved[k][name][ends] for k, weight in weights.items()) / step
@@ -108,7 +112,12 @@ def _child(owner: Any, step: str, path: str, before: list[str]) -> Any:
     options = _options(owner)
     if step not in options:
         place = ".".join(before) or "the robot"
-        raise RobotError(path, f"{place} has no {step!r}", "one of " + ", ".join(options) if options else "no further step", value=path)
+        raise RobotError(
+            path,
+            f"{place} has no {step!r}",
+            "one of " + ", ".join(options) if options else "no further step",
+            value=path,
+        )
     return options[step][0]
 
 
