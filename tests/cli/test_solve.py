@@ -218,3 +218,32 @@ def test_displacements_that_cannot_be(run):
     code, out, err = run("solve", "two_tube_90", "--displacement", "outer=2")
     assert (code, out) == (2, "")
     assert "unit" in err
+
+
+def test_forces_and_moments_at_tips(run):
+    words = (
+        "two_tube_90",
+        "--force",
+        "inner=0.1 N, 0, -0.05 N",
+        "outer=0,0.02,0",
+        "--moment",
+        "inner=0, 5 N mm, 0",
+    )
+    robot = examples.load("two_tube_90")
+    loads = [
+        tactr.PointLoad("inner", force=(0.1, 0.0, -0.05), moment=(0.0, 5e-3, 0.0)),
+        tactr.PointLoad("outer", force=(0.0, 0.02, 0.0)),
+    ]
+    expected = tactr.solve(robot, loads=loads).tip_position
+    assert solved(run, *words)["tip"]["position_m"] == pytest.approx(list(expected), abs=1e-9)
+
+
+@pytest.mark.parametrize(("word", "told"), [
+    ("inner=0.1 N", "x, y, z"),
+    ("0.1, 0, 0", "x, y, z"),
+    ("inner=0.1 mm, 0, 0", "force"),
+    ("middle=0.1, 0, 0", "middle"),
+])  # fmt: skip
+def test_a_force_that_cannot_be(run, word, told):
+    code, out, err = run("solve", "two_tube_90", "--force", word)
+    assert (code, out) == (2, "") and told in err

@@ -26,6 +26,8 @@ def solve(
     rotation: Assignments = [],  # noqa: B006
     translation: Assignments = [],  # noqa: B006
     displacement: Assignments = [],  # noqa: B006
+    force: Assignments = [],  # noqa: B006
+    moment: Assignments = [],  # noqa: B006
     tolerance: str | None = None,
     json: bool = False,
     save: Path | None = None,
@@ -34,7 +36,21 @@ def solve(
     """Compute the shape of a robot and report it."""
     from tactr.cli.solve import Request, run_solve
 
-    return run_solve(Request(file, tension, rotation, translation, displacement, tolerance, json, save, plot))
+    return run_solve(
+        Request(
+            file,
+            tension=tension,
+            rotation=rotation,
+            translation=translation,
+            displacement=displacement,
+            force=force,
+            moment=moment,
+            tolerance=tolerance,
+            json=json,
+            save=save,
+            plot=plot,
+        )
+    )
 
 
 @app.command

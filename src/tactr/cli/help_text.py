@@ -37,6 +37,9 @@ Usage: tactr solve [FILE] [OPTIONS]
   --displacement NAME=VALUE...
                            what the motors of tendons pull instead of tensions, with unit: left="2 mm"
                            Each may also be given without names: one value for every tendon or tube, in order.
+  --force TUBE="x, y, z"... forces at the tips of tubes, in world axes, beside the file's loads:
+                           inner="0.1 N, 0, 0" (a bare number is in newtons)
+  --moment TUBE="x, y, z"... moments there: inner="0, 5 N mm, 0" (a bare number is in N m)
   --tolerance LENGTH       largest discretisation error at the tip, with unit; default "1 um"
 
   --json                   print the result as JSON instead of a report

@@ -59,6 +59,29 @@ def read_assignments(
     return values
 
 
+def read_vectors(
+    option: str, words: Sequence[str], kind: str, *, bare: str
+) -> dict[str, tuple[float, float, float]]:
+    """Vectors in SI units by name, from words such as "inner=0.1 N, 0, -0.05 N". Raises UsageError.
+
+    kind: of the quantity; bare: unit of a number without one.
+    """
+    vectors: dict[str, tuple[float, float, float]] = {}
+    for word in words:
+        name, sign, text = word.rpartition("=")
+        name, parts = name.strip(), text.split(",")
+        if not sign or not name or len(parts) != 3:
+            raise UsageError(
+                f'--{option}: {word!r} is not a vector of a tube; expected name="x, y, z", '
+                f'such as inner="0.1 {bare}, 0, 0"'
+            )
+        if name in vectors:
+            raise UsageError(f"--{option}: {name!r} is given twice")
+        x, y, z = (_read(option, part, kind, bare) for part in parts)
+        vectors[name] = (x, y, z)
+    return vectors
+
+
 def read_length(option: str, word: str) -> float:
     """A length in m. Raises UsageError."""
     return _read(option, word, "length", None)

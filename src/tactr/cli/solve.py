@@ -6,9 +6,12 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from tactr.cli.inputs import UsageError, read_assignments, read_length, read_robot
+from tactr.cli.inputs import UsageError, read_assignments, read_length, read_robot, read_vectors
+
+if TYPE_CHECKING:
+    from tactr.robot import Robot
 
 PICTURES = (".png", ".pdf", ".svg", ".jpg")
 
@@ -22,6 +25,8 @@ class Request:
     rotation: Sequence[str]
     translation: Sequence[str]
     displacement: Sequence[str]
+    force: Sequence[str]
+    moment: Sequence[str]
     tolerance: str | None
     json: bool
     save: Path | None
@@ -38,6 +43,7 @@ def run_solve(request: Request) -> int:
         translation=read_assignments("translation", request.translation, "length"),
         displacement=read_assignments("displacement", request.displacement, "length"),
     )
+    robot = _loaded(robot, request)
     from tactr.statics import solve
 
     options: dict[str, Any] = {}
@@ -47,6 +53,20 @@ def run_solve(request: Request) -> int:
     if shape.converged:
         _write(shape, request)
     return _show(shape, request)
+
+
+def _loaded(robot: Robot, request: Request) -> Robot:
+    """The robot with the forces and moments at the tips of tubes that were typed, beside its own loads."""
+    from tactr.robot import PointLoad
+
+    forces = read_vectors("force", request.force, "force", bare="N")
+    moments = read_vectors("moment", request.moment, "moment", bare="N m")
+    nothing = (0.0, 0.0, 0.0)
+    tips = [
+        PointLoad(tube, force=forces.get(tube, nothing), moment=moments.get(tube, nothing))
+        for tube in dict.fromkeys([*forces, *moments])
+    ]
+    return robot.replace(loads=(*robot.loads, *tips)) if tips else robot
 
 
 def _check_target(option: str, path: Path | None, endings: tuple[str, ...]) -> None:

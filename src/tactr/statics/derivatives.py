@@ -108,8 +108,8 @@ class Derivatives:
 
         parameters: paths such as "tubes.outer.length", "tubes.outer.material.E",
         "tubes.inner.precurvature.0.1.x", "tendons.pull.routing.radius", "loads.0.force.z",
-        "tendons.pull.tension"; each in the unit that it has in the description. The mechanics is differentiated
-        exactly; from the description to the kernel's tables by differences to 1e-10 (see
+        "tendons.pull.tension"; each in the unit that it has in the description. The mechanics is
+        differentiated exactly; from the description to the kernel's tables by differences to 1e-10 (see
         ``tactr.statics.parameters``). s: m from the guide's exit, None for the tip, k places give (k, 6,
         parameters). Raises NotConverged, RobotError for an unknown path.
         """
