@@ -2,7 +2,7 @@
 
     python benchmarks/speed.py [--seconds 1.0]
 
-Prints the machine and, for three robots, the median and the least time of many solves: warm from a
+Prints the machine and, for four robots, the median and the least time of many solves: warm from a
 neighbouring shape (tensions 5 % and rotations 0.05 rad away) and cold, in the kernel
 (Shape.solve_time) and from Python (Prepared.solve with arrays, and the tip). The targets are the project's.
 """
@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tactr import Annulus, Helix, Material, PointLoad, Robot, Rod, Straight, Tendon, Tube
+from tactr import Annulus, Helix, Material, PointLoad, Robot, Rod, Straight, Tendon, Tube, _core
 from tactr.statics import Prepared, Shape
 
 CHANGE_TENSION, CHANGE_ROTATION = 0.05, 0.05  # share, rad
@@ -68,6 +68,41 @@ def one_tube(*, loaded: bool) -> Robot:
         for j, tension in enumerate((1.0, 0.5, 0.1, 0.3))
     ]
     return Robot([rod], tendons, [PointLoad("rod", force=(0.05, 0.02, -0.03))] if loaded else [])
+
+
+def concentric() -> Robot:
+    """Three precurved tubes without tendons, pushed back and turned behind the guide."""
+    rows = [
+        ("outer", 0.199, 1.175e-3, 1.03e-3, 7.0, -0.1, 1.0),
+        ("middle", 0.3305, 0.9e-3, 0.81e-3, 5.0, -0.2, 0.5),
+        ("inner", 0.463, 0.762e-3, 0.65e-3, 10.0, -0.3, 0.0),
+    ]
+    tubes = [
+        Tube(
+            name,
+            length=length,
+            section=Annulus(2 * radius, 2 * bore),
+            material=Material(E=58e9, nu=0.3),
+            precurvature=[(0.0, (0.0, 0.0, 0.0)), (length - 0.05, (curvature, 0.0, 0.0))],
+            translation=b,
+            rotation=angle,
+        )
+        for name, length, radius, bore, curvature, b, angle in rows
+    ]
+    return Robot(tubes)
+
+
+def derivatives(robot: Robot, seconds: float) -> Row:
+    """Tip Jacobian with respect to every actuator and compliance of the tip, in one pass of the kernel."""
+    shape = Prepared(robot).solve()
+    reach, none = max(tube.tip for tube in robot.tubes), np.array([])
+    found = []
+    begin = time.perf_counter()
+    while time.perf_counter() - begin < seconds:
+        start = time.perf_counter()
+        _core.sensitivities(shape._prepared, shape._solution, none, False, True, reach, [])
+        found.append(time.perf_counter() - start)
+    return Row("three tubes, three tendons, all derivatives", np.array(found))
 
 
 def neighbours(prepared: Prepared, tension: np.ndarray, rotation: np.ndarray) -> list[Shape]:
@@ -120,12 +155,12 @@ def rows_of(name: str, robot: Robot, targets: tuple[float, float, float], second
 
 def report(rows: list[Row]) -> None:
     """Print the table."""
-    print(f"{'solve':44}{'median':>9}{'least':>9}{'solves':>9}{'target':>9}   (microseconds)")
+    print(f"{'solve':54}{'median':>9}{'least':>9}{'solves':>9}{'target':>9}   (microseconds)")
     for row in rows:
         median, least = 1e6 * float(np.median(row.times)), 1e6 * float(row.times.min())
         target = "" if np.isnan(row.target) else f"{row.target:.0f}"
         verdict = "" if not target else "met" if median <= row.target else "missed"
-        print(f"{row.name:44}{median:9.1f}{least:9.1f}{row.times.size:9d}{target:>9}   {verdict}")
+        print(f"{row.name:54}{median:9.1f}{least:9.1f}{row.times.size:9d}{target:>9}   {verdict}")
 
 
 def machine() -> str:
@@ -148,7 +183,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--seconds", type=float, default=1.0, help="spent on each of the six measurements")
+    parser.add_argument("--seconds", type=float, default=1.0, help="spent on each measurement")
     seconds = parser.parse_args().seconds
     stay_on_one_core()
     print(f"machine: {machine()}")
@@ -157,6 +192,8 @@ def main() -> None:
         [
             *rows_of("three tubes, three tendons", three_tubes(), (100.0, 150.0, 300.0), seconds),
             *rows_of("one loaded tube, four tendons", one_tube(loaded=True), (60.0, none, none), seconds),
+            derivatives(three_tubes(), seconds),
+            *rows_of("three tubes behind a guide, no tendons", concentric(), (60.0, none, none), seconds),
             *rows_of("one unloaded tube, four tendons", one_tube(loaded=False), (20.0, none, none), seconds),
         ]
     )
