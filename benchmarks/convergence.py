@@ -2,8 +2,8 @@
 
     python benchmarks/convergence.py [--count 10000] [--seed 0] [--processes 2]
 
-Solves the robots of random_robots.py with seeds seed, seed + 1, ... and prints the share converged, every
-failure, the worst residual among the successes, and with --audit how often the error estimate held (against
+Solves the robots of random_robots.py with seeds seed, seed + 1, ... and prints the share converged (and how many of
+these are unstable), every failure, the worst residual among the successes, and with --audit how often the error estimate held (against
 a solve from the same shape with a tolerance of 1e-10 m). Exit code 1 when less than 99.9 % converge or a
 success misses its tolerance.
 """
@@ -40,6 +40,7 @@ class Outcome:
 
     seed: int
     tubes: int
+    converged: bool
     status: str
     message: str
     residual: float
@@ -63,6 +64,7 @@ def outcome_of(seed: int, *, audit: bool) -> Outcome:
     return Outcome(
         seed=seed,
         tubes=len(robot.tubes),
+        converged=shape.converged,
         status=shape.status.value,
         message=shape.message,
         residual=shape.residual,
@@ -87,13 +89,15 @@ def outcomes(seeds: Iterable[int], *, processes: int, audit: bool) -> Iterator[O
 
 def report(found: list[Outcome], wall: float) -> bool:
     """Print what was found; True when it is good enough."""
-    good = [o for o in found if o.status == "converged"]
-    bad = [o for o in found if o.status != "converged"]
+    good = [o for o in found if o.converged]
+    bad = [o for o in found if not o.converged]
+    unstable = [o.seed for o in good if o.status != "converged"]
     print(f"machine: {machine()}, load {os.getloadavg()[0]:.1f}; wall time {wall:.0f} s")
     print(f"converged: {len(good)} of {len(found)} ({100 * len(good) / len(found):.2f} %), cold start")
     for tubes in sorted({o.tubes for o in found}):
-        share = [o.status == "converged" for o in found if o.tubes == tubes]
+        share = [o.converged for o in found if o.tubes == tubes]
         print(f"  {tubes} tubes: {sum(share)} of {len(share)}")
+    print(f"of these to an unstable equilibrium, no stable one found: {len(unstable)} {unstable or ''}")
     print_successes(good)
     print_audit([Audit(o.error, o.discretisation_error, o.seed) for o in good if o.error is not None])
     missed = [o.seed for o in good if o.residual > o.residual_tolerance or o.discretisation_error > TOLERANCE]

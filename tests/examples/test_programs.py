@@ -29,12 +29,14 @@ def test_load_and_save():
 
 def test_the_python_of_the_readme(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    (code,) = blocks("python")
+    code, questions = blocks("python")
     assert len(code.strip().splitlines()) <= 11
     names: dict[str, object] = {}
     exec(code, names)
     shape = names["shape"]
     assert isinstance(shape, tactr.Shape)
+    for line in questions.strip().splitlines():
+        eval(line, names)
     assert shape.tip_position[0] > 0.02
     assert str(shape.tip_position) in capsys.readouterr().out
     assert (tmp_path / "shape.png").exists()
