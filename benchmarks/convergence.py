@@ -2,10 +2,10 @@
 
     python benchmarks/convergence.py [--count 10000] [--seed 0] [--processes 2]
 
-Solves the robots of random_robots.py with seeds seed, seed + 1, ... and prints the share converged (and how many of
-these are unstable), every failure, the worst residual among the successes, and with --audit how often the error estimate held (against
-a solve from the same shape with a tolerance of 1e-10 m). Exit code 1 when less than 99.9 % converge or a
-success misses its tolerance.
+Solves the robots of random_robots.py with seeds seed, seed + 1, ... and prints the share converged (and how
+many of these are unstable), every failure, the worst residual among the successes, and with --audit how often
+the error estimate held (against a solve from the same shape with a tolerance of 1e-10 m). Exit code 1 when
+less than 99.9 % converge or a success misses its tolerance.
 """
 
 from __future__ import annotations
