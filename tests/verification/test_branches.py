@@ -3,42 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.optimize import root_scalar
 
 import tactr
 from tactr import Annulus, Gravity, Material, PointLoad, Robot, RobotError, Stiffness, Tube
 from tactr.statics import Shape, Status
 
-LENGTH, NU = 0.1, 0.3
-
-
-def find_root(f: Callable[[float], float], low: float, high: float, *, xtol: float = 1e-12) -> float:
-    """The root of f between low and high."""
-    return float(root_scalar(f, bracket=(low, high), xtol=xtol).root)
-
-
-def pair(size: float, angle: float) -> Robot:
-    """Two tubes curved alike, size = sqrt(c) L."""
-    k = size / LENGTH / math.sqrt(1 + NU)
-    return Robot(
-        [
-            Tube(
-                name,
-                length=LENGTH,
-                section=Stiffness(
-                    EA=1e4 * f, GA=4e3 * f, EI_x=1e-3 * f, EI_y=1e-3 * f, GJ=1e-3 * f / (1 + NU)
-                ),
-                precurvature=(k, 0.0, 0.0),
-                rotation=rotation,
-            )
-            for name, f, rotation in (("outer", 1.0, 0.0), ("inner", 3.0, angle))
-        ]
-    )
+from .opposed_tubes import LENGTH, find_root, pair
 
 
 def pendulum_base(tip: float, size: float) -> float:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.optimize import root_scalar
 
 import tactr
 from tactr import (
@@ -25,31 +23,7 @@ from tactr import (
     Tube,
 )
 
-LENGTH, NU = 0.1, 0.3
-
-
-def find_root(f: Callable[[float], float], low: float, high: float, *, xtol: float = 1e-12) -> float:
-    """The root of f between low and high."""
-    return float(root_scalar(f, bracket=(low, high), xtol=xtol).root)
-
-
-def pair(size: float) -> Robot:
-    """Two tubes curved alike, size = sqrt(c) L."""
-    k = size / LENGTH / math.sqrt(1 + NU)
-    rows = (("outer", 1.0), ("inner", 3.0))
-    return Robot(
-        [
-            Tube(
-                name,
-                length=LENGTH,
-                section=Stiffness(
-                    EA=1e4 * f, GA=4e3 * f, EI_x=1e-3 * f, EI_y=1e-3 * f, GJ=1e-3 * f / (1 + NU)
-                ),
-                precurvature=(k, 0.0, 0.0),
-            )
-            for name, f in rows
-        ]
-    )
+from .opposed_tubes import LENGTH, NU, find_root, pair
 
 
 def pendulum_base(tip: float, size: float) -> float:
