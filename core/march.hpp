@@ -1,6 +1,7 @@
 // Marches the resultants and the tubes' angles from the free end to the base, section by section, with one or more
 // eighth-order steps in each. T carries the states (double or dual), P the parameters (double, or T for sensitivities).
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -18,7 +19,15 @@
 namespace tactr {
 
 /// Called after every step; the default sees nothing.
-struct NoObserver {};
+struct NoObserver {
+    using SkipsEven = void;
+};
+
+/// An observer that names a type SkipsEven has no use for even sections.
+template <class Observer, class = void>
+struct SkipsEven : std::false_type {};
+template <class Observer>
+struct SkipsEven<Observer, std::void_t<typename Observer::SkipsEven>> : std::true_type {};
 
 /// An observer that names a type Stages is called after every stage too, with the stage's share of an integral along s.
 template <class Observer, class = void>
@@ -390,6 +399,8 @@ class March {
     template <class Observer>
     bool march_section(const Section<P>& section, int k_section, Mesh& mesh, size_t first_stage, bool warm, Observer& observer) {
         if constexpr (SeesStages<Observer>::value) packing.fed_back = packing.count;  // p at the stages too
+        if constexpr (SkipsEven<Observer>::value)
+            if (section.even) return cross_evenly(section, k_section, mesh, first_stage, warm);
         const int steps = mesh.steps[k_section];
         const double grade = mesh.grade_of(k_section);
         const P length = section.proximal - section.distal;
@@ -406,6 +417,30 @@ class March {
             if (step + 1 == steps) edge_error[2 * k_section + 1] = section_error[k_section] - error_before;
             if constexpr (!std::is_same_v<Observer, NoObserver>) observer(*this, k_section, before, s, h);
         }
+        return true;
+    }
+
+    /// One stage serves an even section.
+    bool cross_evenly(const Section<P>& section, int k_section, Mesh& mesh, size_t first, bool warm) {
+        Strains& e = mesh.strains[first];
+        if (!warm) {
+            copy_strains(last_, section.active_count, e);
+        } else if (mesh.unknowns > 0) {
+            shift_strains(section, mesh, first, e);
+        }
+        if (!derivative(section, section.distal, z, k[0], e)) return false;
+        const P h = section.proximal - section.distal;
+        if (options.path) add_lengths(section, -value(h));
+        if (lengths_move) add_moving_lengths(section, -h);
+        for (int n = 0; n < packing.count; ++n) z[n] += k[0][n] * h;
+        if constexpr (LANES > 0)
+            if (slope_lanes > 0) keep_slopes(section, mesh, first);
+        const size_t stages = static_cast<size_t>(mesh.steps[k_section]) * dp8::STAGES;
+        for (size_t i = first + 1; i < first + stages; ++i) copy_strains(e, section.active_count, mesh.strains[i]);
+        const size_t width = STRAINS * (slope_lanes > 0 ? slope_lanes : 0);
+        for (size_t i = first + 1; width > 0 && i < first + stages; ++i)
+            std::copy_n(&mesh.slopes[first * width], width, &mesh.slopes[i * width]);
+        copy_strains(e, section.active_count, last_);
         return true;
     }
 
@@ -485,16 +520,18 @@ class March {
 
     template <const SparseRow& ROW, int... J>
     void add_rates_of(const P& h, const T* before, int count, std::integer_sequence<int, J...>) {
-        if constexpr (std::is_same_v<P, double>) {
-            const int width = count * (LANES + 1);
-            const double* from = reinterpret_cast<const double*>(before);
-            double* to = reinterpret_cast<double*>(z);
-            const double* rates = reinterpret_cast<const double*>(k);
-            constexpr int STRIDE = STATES * (LANES + 1);
-            for (int n = 0; n < width; ++n) to[n] = from[n] + h * ((rates[ROW.stage[J] * STRIDE + n] * ROW.weight[J]) + ...);
-        } else {
-            for (int n = 0; n < count; ++n) z[n] = before[n] + ((k[ROW.stage[J]][n] * ROW.weight[J]) + ...) * h;
-        }
+        const double length = value(h);
+        const int width = count * (LANES + 1);
+        const double* from = reinterpret_cast<const double*>(before);
+        double* to = reinterpret_cast<double*>(z);
+        const double* rates = reinterpret_cast<const double*>(k);
+        constexpr int STRIDE = STATES * (LANES + 1);
+        for (int n = 0; n < width; ++n) to[n] = from[n] + length * ((rates[ROW.stage[J] * STRIDE + n] * ROW.weight[J]) + ...);
+        if constexpr (!std::is_same_v<P, double>)
+            for (int n = 0; n < count; ++n) {
+                const double rate = ((k[ROW.stage[J]][n].v * ROW.weight[J]) + ...);
+                for (int l = 0; l < LANES; ++l) z[n].d[l] += rate * h.d[l];
+            }
     }
 
     void advance(const P& h, const T* before, double& error) {

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "bare_section.hpp"
 #include "dual.hpp"
 #include "robot.hpp"
 #include "routing.hpp"
@@ -42,6 +43,7 @@ class SectionSolver {
         : robot_(robot), layout_(layout), actuation_(actuation) {
         tendons.resize(layout.max_hosted + 1);
         tendon_tangents.resize(layout.max_hosted + 1);
+        if (SLIM) slim_.resize(layout.max_hosted + 1);
     }
 
     /// Forgets the section before, as a march begins: robot and actuation may have changed.
@@ -52,11 +54,15 @@ class SectionSolver {
         place_tubes(section, s);
         place_tendons(section, s);
         for (int a = 0; a < section.active_count; ++a) sine_cosine(z[3 * a], sine[a], cosine[a]);
-        if (!find_strains(section, z, packing, e)) return false;
-        watch_tendons(section);
+        if (bare_) {
+            if (!solve_bare(section, z, packing, e)) return false;
+        } else {
+            if (!find_strains(section, z, packing, e)) return false;
+            watch_tendons(section);
+            carry(section, z, packing, e);
+        }
         for (int a = 0; a < section.active_count; ++a)
             least_stretch = smaller(least_stretch, 1.0 + e.eta[a] - tubes[a].vstar[2]);
-        carry(section, z, packing, e);
         return true;
     }
 
@@ -67,13 +73,22 @@ class SectionSolver {
             const Hosted& hosted = layout_.hosted[h];
             TendonState<P>& state = tendons[h - section.hosted.begin];
             const P sigma = s - actuation_.translation[robot_.tendons[hosted.tendon].tube];
-            evaluate_routing(robot_.routing[hosted.routing], sigma, state.r, state.dr);
-            state.tension = actuation_.tension[hosted.tendon] * actuation_.shape_scale;
-            if (hosted.profile >= 0) {
-                const TensionPieceOf<C>& piece = robot_.profiles[hosted.profile];
-                P factor, slope;
-                evaluate_polynomial(piece.c, piece.count, P(sigma - piece.start), factor, slope);
-                state.tension = state.tension * factor;
+            const P tension = actuation_.tension[hosted.tendon] * actuation_.shape_scale;
+            if constexpr (SLIM) {
+                Slim& slim = slim_[h - section.hosted.begin];
+                Dual<2> along(value(sigma)), pull(value(tension));
+                along.d[0] = pull.d[1] = 1.0;
+                slim.sigma = sigma;
+                slim.tension = tension;
+                slim.state.slot = hosted.slot;
+                place_tendon(hosted, along, pull, slim.state);
+                for (int r = 0; r < 2; ++r) {
+                    state.r[r] = slim.widen(slim.state.r[r]);
+                    state.dr[r] = slim.widen(slim.state.dr[r]);
+                }
+                state.tension = slim.widen(slim.state.tension);
+            } else {
+                place_tendon(hosted, sigma, tension, state);
             }
             state.slot = hosted.slot;
             pull_ += value(state.tension);
@@ -82,6 +97,22 @@ class SectionSolver {
     }
 
   private:
+    // Where only the actuation carries derivatives, a tendon moves with its place sigma and its tension alone: two lanes
+    // stand for all.
+    static constexpr bool SLIM = std::is_same_v<C, double> && !std::is_same_v<P, double>;
+    struct Slim {
+        TendonState<Dual<2>> state;
+        P sigma, tension;
+
+        P widen(const Dual<2>& x) const {
+            P wide(x.v);
+            if constexpr (SLIM)
+                for (int l = 0; l < LANES; ++l) wide.d[l] = x.d[0] * sigma.d[l] + x.d[1] * tension.d[l];
+            return wide;
+        }
+    };
+    std::vector<Slim> slim_;
+
     // Of rough marches: below the first residual a linear step ends the solve, below the second, without derivatives, no
     // step is taken.
     static constexpr double LINEAR_ENOUGH = LANES == 0 ? 0.1 : 1e-2, CLOSE_ENOUGH = 1e-5;
@@ -93,12 +124,24 @@ class SectionSolver {
     double pull_ = 0.0, pull_moment_ = 0.0;  // tensions, and with their offsets, of all tendons here
     const Section<P>* section_ = nullptr;  // whose constant tubes are in place
     int varying_[MAX_TUBES], varying_count_ = 0;  // slots of the tubes that vary along the section
+    bool bare_ = false;                           // the section has a closed form
     TubeState<P> exact_[MAX_TUBES];  // where P carries derivatives
     bool moves_[MAX_TUBES];          // whether a tube's has any
     double N_[MAX_TUBES][3], M_[MAX_TUBES][3];
     TubeTangent tangent_[MAX_TUBES];
     TubeRows rows_[MAX_TUBES];
     SectionFactor factor_;
+
+    template <class D>
+    void place_tendon(const Hosted& hosted, const D& sigma, const D& tension, TendonState<D>& state) const {
+        evaluate_routing(robot_.routing[hosted.routing], sigma, state.r, state.dr);
+        state.tension = tension;
+        if (hosted.profile < 0) return;
+        const TensionPieceOf<C>& piece = robot_.profiles[hosted.profile];
+        D factor, slope;
+        evaluate_polynomial(piece.c, piece.count, D(sigma - piece.start), factor, slope);
+        state.tension = state.tension * factor;
+    }
 
     void place_tubes(const Section<P>& section, const P& s) {
         if (section_ != &section) enter(section);
@@ -111,8 +154,10 @@ class SectionSolver {
     void enter(const Section<P>& section) {
         section_ = &section;
         varying_count_ = 0;
+        bare_ = std::is_same_v<C, double> && section.hosted.begin == section.hosted.end;
         for (int a = 0; a < section.active_count; ++a) {
             const TubePieceOf<C>& piece = robot_.pieces[section.piece[a]];
+            if constexpr (std::is_same_v<C, double>) bare_ = bare_ && bends_alike(piece);
             if (piece.count > 1) varying_[varying_count_++] = a;
             place_tube(section, a, P(piece.start));
         }
@@ -127,6 +172,27 @@ class SectionSolver {
             moves_[a] = !std::is_same_v<C, double> || piece.count > 1;
             tubes[a] = values_of(exact_[a]);
         }
+    }
+
+    bool solve_bare(const Section<P>& section, const T* z, const Packing& packing, Strains& e) {
+        const T* sums = packing.sums < 0 ? nullptr : z + packing.sums;
+        bool moving = false;
+        if constexpr (!std::is_same_v<P, double>)
+            for (int a = 0; a < section.active_count; ++a) moving = moving || moves_[a];
+        bool found;
+        if (moving)
+            found = solve_bare_section(exact_, section.active_count, section.guided, cosine, sine, z, sums, strains, N_xy, M_xy);
+        else
+            found = solve_bare_section(tubes, section.active_count, section.guided, cosine, sine, z, sums, strains, N_xy, M_xy);
+        e.kx = value(strains.kx);
+        e.ky = value(strains.ky);
+        e.wx = value(strains.wx);
+        e.wy = value(strains.wy);
+        for (int a = 0; a < section.active_count; ++a) {
+            e.tau[a] = value(strains.tau[a]);
+            e.eta[a] = value(strains.eta[a]);
+        }
+        return found;
     }
 
     /// Keeps the least |q|, at solutions and on the way to slow ones: a tendon bent to no length stops everything.
@@ -420,9 +486,25 @@ class SectionSolver {
         }
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
             const int a = tendons[h].slot;
-            P n[3] = {P(0.0), P(0.0), P(0.0)}, m[3] = {P(0.0), P(0.0), P(0.0)}, inverse, t[3], r[2];
-            add_tendon(tendons[h], value(cosine[a]), value(sine[a]), e, n, m, inverse, t, r);
-            add_lanes(n, m, fixed[a]);
+            const double c = value(cosine[a]), s = value(sine[a]);
+            if constexpr (SLIM) {
+                using D = Dual<2>;
+                D n[3] = {D(0.0), D(0.0), D(0.0)}, m[3] = {D(0.0), D(0.0), D(0.0)}, inverse, t[3], r[2];
+                add_tendon(slim_[h].state, c, s, e, n, m, inverse, t, r);
+                add_slim_lanes(slim_[h], n, fixed[a]);
+                add_slim_lanes(slim_[h], m, fixed[a] + 3);
+            } else {
+                P n[3] = {P(0.0), P(0.0), P(0.0)}, m[3] = {P(0.0), P(0.0), P(0.0)}, inverse, t[3], r[2];
+                add_tendon(tendons[h], c, s, e, n, m, inverse, t, r);
+                add_lanes(n, m, fixed[a]);
+            }
+        }
+    }
+
+    static void add_slim_lanes(const Slim& slim, const Dual<2> (&wrench)[3], double (*fixed)[WIDTH]) {
+        for (int r = 0; r < 3; ++r) {
+            const double along = wrench[r].d[0], pull = wrench[r].d[1];
+            for (int l = 0; l < WIDTH; ++l) fixed[r][l] += along * slim.sigma.d[l] + pull * slim.tension.d[l];
         }
     }
 

@@ -31,6 +31,7 @@ template <class P>
 struct Section {
     P proximal, distal;  // s
     int guided;          // 1: behind the guide exit, held straight
+    int even;            // 1: all rates are the same along it, or it has no length
     int active_count;
     int active[MAX_TUBES];  // tubes present, outermost first
     int piece[MAX_TUBES];   // their current TubePiece
@@ -127,6 +128,7 @@ class Cutter {
             place_tubes(k, section);
             place_tendons(k, section, layout);
             place_loads(k, section, layout);
+            section.even = is_even(section, layout);
             layout.sections.push_back(section);
         }
         return layout;
@@ -138,6 +140,22 @@ class Cutter {
     Breakpoints<P> breaks_;
 
     P tip(int i) const { return translation_[i] + robot_.tubes[i].length; }
+
+    /// Behind the guide nothing bends, and what turns about the axis makes no difference: tubes and tendons only have to
+    /// stay as they are up to a turn.
+    bool is_even(const Section<P>& section, const Layout<P>& layout) const {
+        if (!(value(section.distal) - value(section.proximal) > BREAKPOINT_GAP)) return true;
+        if (!section.guided || section.distributed_loads.begin != section.distributed_loads.end) return false;
+        for (int a = 0; a < section.active_count; ++a)
+            if (robot_.pieces[section.piece[a]].count > 1) return false;
+        for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
+            const Hosted& hosted = layout.hosted[h];
+            const RoutingPieceOf<C>& routing = robot_.routing[hosted.routing];
+            if (routing.count_a > 1 || routing.count_b > (routing.polar ? 2 : 1)) return false;
+            if (hosted.profile >= 0 && robot_.profiles[hosted.profile].count > 1) return false;
+        }
+        return true;
+    }
 
     /// Proximal ends before the guide's exit: where they are at one place, they can only move back from it.
     void add_ends(int withdrawn) {

@@ -17,6 +17,7 @@ namespace {
 template <class T>
 class PoseReader {
   public:
+    using SkipsEven = void;
     std::vector<T> position, quaternion;  // 3 and 4 for each station
     std::vector<char> found;
 
