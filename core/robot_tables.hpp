@@ -96,6 +96,9 @@ RobotTables<D> moving(const RobotTables<double>& base, const std::vector<const R
     RobotTables<D> out;
     lift<D, TubeOf>(base, rates, &RobotTables<double>::tubes, out.tubes);
     lift<D, TubePieceOf>(base, rates, &RobotTables<double>::pieces, out.pieces);
+    for (std::size_t i = 0; i < out.pieces.size(); ++i)  // a tube may be about to be plain no more
+        for (const RobotTables<double>* rate : rates)
+            if (rate && !rate->pieces[i].plain) out.pieces[i].plain = 0;
     lift<D, TendonOf>(base, rates, &RobotTables<double>::tendons, out.tendons);
     lift<D, RoutingPieceOf>(base, rates, &RobotTables<double>::routing, out.routing);
     lift<D, TensionPieceOf>(base, rates, &RobotTables<double>::profiles, out.profiles);

@@ -104,7 +104,8 @@ def _weighted(
         )
     ends = np.isfinite(base)
     rates = np.zeros_like(base)
-    rates[ends] = sum(weight * moved[k][name][ends] for k, weight in weights.items()) / step
+    changes = {k: moved[k][name][ends] - base[ends] for k in weights}  # none where a table stays as it is
+    rates[ends] = sum(weight * changes[k] for k, weight in weights.items()) / step
     return rates
 
 
