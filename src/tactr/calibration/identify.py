@@ -16,6 +16,7 @@ from tactr.calibration.parameters import Free
 
 RANK = 1e-8  # of the largest singular value: below, the derivatives are rounding
 SEEN = 1.0  # scales: a larger standard error of a combination, and the data do not see it
+LEAST_WEIGHT = 1e-6  # of a number in a combination that changes nothing: below, it is rounding
 SHARE = 0.05  # of a combination, for a number to be named in it
 
 
@@ -65,14 +66,12 @@ def knowledge(frees: Sequence[Free], jacobian: np.ndarray, noise: float, at_boun
     with np.errstate(divide="ignore"):
         errors = np.where(singular > RANK * singular.max(initial=0.0), 1.0 / singular, np.inf)
     unseen = errors > SEEN
-    weight = np.where(np.abs(vectors) > 1e-6, vectors, 0.0)
-    spread = np.where(weight != 0.0, weight * np.where(np.isinf(errors), 1e300, errors)[:, None], 0.0)
-    with np.errstate(over="ignore"):
-        totals = np.sqrt((spread**2).sum(axis=0))
+    known = np.isfinite(errors)
+    never = (np.abs(vectors[~known]) > LEAST_WEIGHT).any(axis=0)
+    spread = vectors[known] * errors[known, None]
+    inner = spread.T @ spread
     good = np.zeros(n, dtype=bool)
-    good[moving] = totals <= SEEN
-    seen = vectors[~unseen] / singular[~unseen, None]
-    inner = seen.T @ seen
+    good[moving] = ~never & (np.sqrt(np.diag(inner)) <= SEEN)
     covariance = np.full((n, n), np.nan)
     covariance[np.ix_(moving, moving)] = inner * np.outer(scales[moving], scales[moving])
     covariance[~good] = np.nan

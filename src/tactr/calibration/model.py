@@ -13,12 +13,12 @@ from tactr.calibration.parameters import FRAME, ZERO, Free
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
 from tactr.statics.parameters import with_value
-from tactr.statics.rates import Rates
+from tactr.statics.rates import Rates, stands_alone
 from tactr.statics.rest import rest_lengths
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared
 
-Ticker = Callable[[], None]
+Ticker = Callable[[int], None]
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Model:
     ) -> None:
         self.measured, self.frees = measured, tuple(frees)
         self.robot, self.frame = _pulled(robot, measured), frame
-        self._tolerance = tolerance
+        self.tolerance = tolerance
         self._shapes: list[Shape | None] = [None] * len(measured)
         self._names = [tendon.name for tendon in robot.tendons]
 
@@ -58,14 +58,14 @@ class Model:
     def predict(self, values: np.ndarray, tick: Ticker | None = None) -> np.ndarray:
         """Points in the sensor's axes, (n, k, 3) m; NaN in rows without an equilibrium."""
         setting = self.setting(values)
-        prepared = Prepared(setting.robot, tolerance=self._tolerance, stations=2)
+        prepared = Prepared(setting.robot, tolerance=self.tolerance, stations=2)
         points, before = np.full(self.measured.points.shape, np.nan), None
         rows = self._actuation(setting)
         for i in range(len(points)):
             guess = self._shapes[i] or before
             shape = prepared.solve(**{kind: values[i] for kind, values in rows.items()}, guess=guess)
             if tick is not None:
-                tick()
+                tick(i)
             if shape.converged:
                 self._shapes[i] = before = shape
                 points[i] = self._points(shape, setting.frame)
@@ -80,13 +80,17 @@ class Model:
         found = np.zeros((*self.measured.points.shape, len(self.frees)))
         for i, shape in enumerate(self._shapes):
             if tick is not None:
-                tick()
+                tick(i)
             if shape is None:
                 continue
             poses = rates.poses(shape, inside)
             ordered = poses[[*range(1, len(poses)), *([0] if None in self.measured.places else [])]]
             self._gather(found[i], ordered @ columns, shape, setting.frame)
         return found
+
+    def forget(self) -> None:
+        """Start the next search of shapes from nothing."""
+        self._shapes = [None] * len(self.measured)
 
     def tensions(self) -> np.ndarray:
         """Of all tendons in the shapes of the last ``predict``, (n, tendons), N; NaN without one."""
@@ -130,16 +134,17 @@ class Model:
             points.append(shape.tip_position + shape.tip_orientation @ np.array(frame.marker))
         return np.array(points) @ frame.matrix.T + np.array(frame.position)
 
-    def _split(self) -> tuple[np.ndarray, list[str]]:
-        """Paths of the robot's own numbers, and which free number each belongs to, (paths, free)."""
-        paths, owners = [], []
+    def _split(self) -> tuple[np.ndarray, list[tuple[str, ...]]]:
+        """Paths of the robot's own numbers, those that move together as one, and which free number each is,
+        (paths, free)."""
+        groups, owners = [], []
         for k, free in enumerate(self.frees):
-            for path in free.paths:
-                if path not in FRAME:
-                    zero = path.endswith(f".{ZERO}")
-                    paths.append(f"{path.rpartition('.')[0]}.displacement" if zero else path)
-                    owners.append(k)
-        return np.eye(len(self.frees))[owners].reshape(len(paths), len(self.frees)), paths
+            own = [_as_displacement(path) for path in free.paths if path not in FRAME]
+            alone = [path for path in own if stands_alone(self.robot, path)]
+            together = tuple(path for path in own if path not in alone)
+            groups += [*((path,) for path in alone), *([together] if together else [])]
+            owners += [k] * (len(groups) - len(owners))
+        return np.eye(len(self.frees))[owners].reshape(len(groups), len(self.frees)), groups
 
     def _gather(self, into: np.ndarray, poses: np.ndarray, shape: Shape, frame: Frame) -> None:
         """Fill (k, 3, free) from the rates (k, 6, free) of the poses in the robot's axes."""
@@ -162,6 +167,11 @@ class Model:
                     into[:, :, k] += np.cross(turns[:, axis], robot_points)
                 elif path.startswith("sensor"):
                     into[:, axis, k] += 1.0
+
+
+def _as_displacement(path: str) -> str:
+    """A motor that has pulled more at its zero is one with a larger displacement."""
+    return f"{path.rpartition('.')[0]}.displacement" if path.endswith(f".{ZERO}") else path
 
 
 def _framed(frame: Frame, path: str, value: float) -> Frame:

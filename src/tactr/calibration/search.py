@@ -46,6 +46,8 @@ def search(
     if not usable.any():
         expected = "parameters, units and actuation of a robot that can be in equilibrium"
         raise RobotError("start", "no measured row has an equilibrium there", expected)
+    if not model.frees:
+        return _as_it_is(model, start, usable, noise)
     weigh = loss != "linear" or any(free.prior is not None for free in model.frees)
     least = _Least(model, usable, loss, tick)
     values, known = start, noise
@@ -58,6 +60,14 @@ def search(
             break
         result = least.solve(least.values(result.x), known)
     return least.found(result, known)
+
+
+def _as_it_is(model: Model, values: np.ndarray, usable: np.ndarray, noise: float | None) -> Found:
+    """Nothing is free: how well the robot predicts as it is."""
+    residual = np.where(usable, model.predict(values) - model.measured.points, np.nan)
+    spread = max(float(np.sqrt(np.nanmean(residual**2))), FINEST)
+    empty = np.zeros((int(usable.sum()), 0))
+    return Found(values, 0.0, noise or spread, residual, empty, np.zeros(0, bool), True, "nothing is free")
 
 
 class _Least:

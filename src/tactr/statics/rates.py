@@ -30,28 +30,29 @@ MOTOR = ("displacement", "compliance", "pretension", "rest_length")
 class Rates:
     """Derivatives with respect to numbers of one robot, at any actuation of it and any of its shapes.
 
-    parameters: paths as in ``Shape.sensitivity``. Raises RobotError for an unknown one.
+    parameters: paths as in ``Shape.sensitivity``, or tuples of paths that change together, by the same number;
+    those of actuators and motors (see MOTOR) stand alone. Raises RobotError for an unknown one.
     """
 
-    def __init__(self, robot: Robot, parameters: Sequence[str]) -> None:
-        self.parameters = tuple(parameters)
+    def __init__(self, robot: Robot, parameters: Sequence[str | tuple[str, ...]]) -> None:
+        self.parameters = tuple((p,) if isinstance(p, str) else p for p in parameters)
         self._robot = robot
         self._bare = robot.replace(loads=()) if robot.loads else robot
         self._tendons = len(robot.tendons)
-        self._motors = {k: motor for k, path in enumerate(parameters) if (motor := _motor(robot, path))}
+        self._motors = {k: motor for k, paths in enumerate(self.parameters) if (motor := _motor(robot, paths[0]))}
         self._columns: dict[int, int] = {}
         self._rates: list[_core.PreparedRobot] = []
         self._bare_rates: list[_core.PreparedRobot] = []
         actuators = self._tendons + 2 * len(robot.tubes)
-        for k, path in enumerate(parameters):
+        for k, paths in enumerate(self.parameters):
             if k in self._motors:
                 continue
-            held = actuator_column(robot, path)
+            held = actuator_column(robot, paths[0])
             self._columns[k] = actuators + len(self._rates) if held is None else held
             if held is None:
-                self._rates.append(rates_of(robot, path))
-                loaded = robot.loads and not path.startswith("loads.")
-                self._bare_rates.append(rates_of(self._bare, path) if loaded else self._rates[-1])
+                self._rates.append(rates_of(robot, *paths))
+                bare = [path for path in paths if not path.startswith("loads.")] if robot.loads else []
+                self._bare_rates.append(rates_of(self._bare, *bare) if bare else self._rates[-1])
         self._rest: tuple[_core.Solution, np.ndarray] | None = None
 
     def poses(self, shape: Shape, s: np.ndarray) -> np.ndarray:
@@ -112,14 +113,20 @@ class Rates:
         if self._rest is None or self._rest[0] is not solution:
             found = _core.sensitivities(rest._core, solution, np.array([]), True, True, -1.0, self._bare_rates)
             lengths = self._picked(found)[6:]
-            for k, path in enumerate(self.parameters):
-                if path.startswith("loads.") or k in self._columns and self._columns[k] < self._tendons:
+            for k, paths in enumerate(self.parameters):
+                held = k in self._columns and self._columns[k] < self._tendons
+                if held or all(path.startswith("loads.") for path in paths):
                     lengths[:, k] = 0.0  # there are no loads in it, and no tensions but pretensions
             for k, (field, j) in self._motors.items():
                 if field == "pretension":
                     lengths[:, k] = found[6:, j]
             self._rest = solution, lengths
         return self._rest[1]
+
+
+def stands_alone(robot: Robot, path: str) -> bool:
+    """Whether a path is an actuator's or a motor's, which the kernel's tables do not hold."""
+    return _motor(robot, path) is not None or actuator_column(robot, path) is not None
 
 
 def _motor(robot: Robot, path: str) -> tuple[str, int] | None:
