@@ -106,8 +106,18 @@ def _starts(frees: Sequence[Free], count: int) -> list[np.ndarray]:
 
     low = np.array([max(free.lower, free.start - 2 * free.scale) for free in frees])
     high = np.array([min(free.upper, free.start + 2 * free.scale) for free in frees])
-    low = np.array([f.lower if np.isfinite(f.lower) and np.isfinite(f.upper) else w for f, w in zip(frees, low, strict=True)])
-    high = np.array([f.upper if np.isfinite(f.lower) and np.isfinite(f.upper) else w for f, w in zip(frees, high, strict=True)])
+    low = np.array(
+        [
+            f.lower if np.isfinite(f.lower) and np.isfinite(f.upper) else w
+            for f, w in zip(frees, low, strict=True)
+        ]
+    )
+    high = np.array(
+        [
+            f.upper if np.isfinite(f.lower) and np.isfinite(f.upper) else w
+            for f, w in zip(frees, high, strict=True)
+        ]
+    )
     shares = qmc.LatinHypercube(d=len(frees), rng=np.random.default_rng(0)).random(count - 1)
     return [origin, *(low + shares * (high - low))]
 
@@ -126,7 +136,9 @@ def _fitted(
 ) -> np.ndarray:
     """Points of the rows held out, predicted by a calibration on the others, (rows, k, 3)."""
     origin = np.array([free.start for free in frees])
-    found = search(Model(robot, frame, train, frees, tolerance), origin, noise=noise, loss=loss, tick=tick(name))
+    found = search(
+        Model(robot, frame, train, frees, tolerance), origin, noise=noise, loss=loss, tick=tick(name)
+    )
     return Model(robot, frame, test, frees, tolerance).predict(found.values)
 
 

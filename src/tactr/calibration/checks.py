@@ -48,7 +48,9 @@ def _check_points(data: Measurements, frame: Frame, frees: Sequence[Free], reach
     for k, place in enumerate(data.places):
         name, points = "tip" if place is None else f"at {place * 1e3:g} mm", data.points[:, k]
         if place is not None and place > reach * (1 + 1e-9):
-            raise RobotError(name, f"the robot ends at {reach * 1e3:g} mm", "a point on the robot", value=place)
+            raise RobotError(
+                name, f"the robot ends at {reach * 1e3:g} mm", "a point on the robot", value=place
+            )
         points = points[np.isfinite(points).all(axis=1)]
         marker = 2 * float(np.linalg.norm(frame.marker)) + 0.5 * reach
         spread = float(np.ptp(points, axis=0).max(initial=0.0)) if len(points) else 0.0
@@ -59,7 +61,9 @@ def _check_points(data: Measurements, frame: Frame, frees: Sequence[Free], reach
         far = float(np.abs(points - frame.position).max(initial=0.0))
         if not moved and far > reach + marker:
             expected = "sensor.x, sensor.y, sensor.z free, a frame, or other units"
-            raise RobotError(f"{name}.x, y, z", f"{far:.4g} m from the guide, beyond the robot's reach", expected)
+            raise RobotError(
+                f"{name}.x, y, z", f"{far:.4g} m from the guide, beyond the robot's reach", expected
+            )
 
 
 def after(model: Model, first: np.ndarray, found: Found, known: Knowledge, loss: str) -> list[Remark]:
@@ -78,7 +82,9 @@ def after(model: Model, first: np.ndarray, found: Found, known: Knowledge, loss:
     held = [free.name for free, at in zip(model.frees, found.held, strict=True) if at]
     if held:
         remarks.append(Remark("at-bound", f"{', '.join(held)}: the best value is a bound"))
-    vague = [free.name for k, free in enumerate(model.frees) if not known.identifiable[k] and not found.held[k]]
+    vague = [
+        free.name for k, free in enumerate(model.frees) if not known.identifiable[k] and not found.held[k]
+    ]
     if vague:
         remarks.append(Remark("not-identifiable", f"the data do not tell {', '.join(vague)}"))
     return remarks
@@ -96,7 +102,11 @@ def _spread(data: Measurements, first: np.ndarray) -> list[Remark]:
     both = np.isfinite(first) & np.isfinite(data.points)
     own, model = (np.where(both, p, np.nan) for p in (data.points, first))
     wide, predicted = (float(np.nanmax(np.nanstd(p, axis=0))) for p in (own, model))
-    if len(data) < 3 or (wide < UNLIKE * predicted and predicted < UNLIKE * wide) or max(wide, predicted) < 1e-4:
+    if (
+        len(data) < 3
+        or (wide < UNLIKE * predicted and predicted < UNLIKE * wide)
+        or max(wide, predicted) < 1e-4
+    ):
         return []
     text = f"measured points spread by {wide:.3g} m, predicted ones at the start by {predicted:.3g} m: units?"
     return [Remark("units", text)]
@@ -114,15 +124,22 @@ def _axes(data: Measurements, first: np.ndarray, found: Found) -> list[Remark]:
         turned, mirrored = (_left_over(p, q, mirror) for mirror in (False, True))
         if mirrored < BETTER * min(left, turned):
             text = "the points fit far better mirrored: one axis, or two exchanged, make it left-handed"
-            return [Remark("left-handed-axes", f"{text} ({mirrored * 1e3:.3g} mm left instead of {left * 1e3:.3g} mm)")]
+            return [
+                Remark(
+                    "left-handed-axes",
+                    f"{text} ({mirrored * 1e3:.3g} mm left instead of {left * 1e3:.3g} mm)",
+                )
+            ]
         if turned < BETTER * left:
             text = "the points fit far better turned: free sensor.rx, sensor.ry, sensor.rz and its place"
-            return [Remark("turned-axes", f"{text} ({turned * 1e3:.3g} mm left instead of {left * 1e3:.3g} mm)")]
+            return [
+                Remark("turned-axes", f"{text} ({turned * 1e3:.3g} mm left instead of {left * 1e3:.3g} mm)")
+            ]
     return []
 
 
 def _left_over(p: np.ndarray, q: np.ndarray, mirror: bool) -> float:
-    """Root mean square of coordinates after the best shift and turn of p (and mirroring) to q (Kabsch 1976)."""
+    """Root mean square of coordinates after the best shift and turn of p (mirrored) to q (Kabsch 1976)."""
     a, b = p - p.mean(axis=0), q - q.mean(axis=0)
     u, _, v = np.linalg.svd(a.T @ b)
     hand = (-1.0 if mirror else 1.0) * np.sign(np.linalg.det(u @ v))
@@ -138,8 +155,12 @@ def _outliers(data: Measurements, found: Found, loss: str) -> list[Remark]:
         return []
     order = far[np.argsort(-error[far])][:8]
     shown = ", ".join(f"{data.row_name(int(i))} ({error[i] * 1e3:.3g} mm)" for i in order)
-    advice = "a robust loss, such as huber, weighs them less" if loss == "linear" else "the loss weighs them less"
-    return [Remark("outliers", f"{len(far)} rows are {FAR:g} times as far off as the median: {shown}; {advice}")]
+    advice = (
+        "a robust loss, such as huber, weighs them less" if loss == "linear" else "the loss weighs them less"
+    )
+    return [
+        Remark("outliers", f"{len(far)} rows are {FAR:g} times as far off as the median: {shown}; {advice}")
+    ]
 
 
 def _neighbours(found: Found) -> list[Remark]:
@@ -151,8 +172,9 @@ def _neighbours(found: Found) -> list[Remark]:
     alike = float((rows[1:] * rows[:-1]).sum() / (rows**2).sum())
     if alike < ALIKE:
         return []
+    less = np.sqrt((1 + alike) / (1 - alike))
     text = (
         f"errors of neighbouring rows are alike (correlation {alike:.2f}): the model misses something, and"
-        f" standard errors, which take rows for independent, are too small by about {np.sqrt((1 + alike) / (1 - alike)):.1f}"
+        f" standard errors, which take rows for independent, are too small by about {less:.1f}"
     )
     return [Remark("alike-errors", text)]

@@ -17,9 +17,11 @@ Fit = Callable[[str, Measurements, Measurements], np.ndarray]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HoldOut:
-    """Errors of predictions of rows held out. folds: their names; fold: (n,) the fold of each row, -1 for rows
-    never held out; error: (n,) m, the mean distance of a row's points, NaN where there is no prediction.
-    residual: (n, k, 3) m, prediction - measurement."""
+    """Errors of predictions of rows held out.
+
+    folds: their names; fold: (n,) the fold of each row, -1 for rows never held out; residual: (n, k, 3) m,
+    prediction - measurement, NaN where there is none.
+    """
 
     folds: tuple[str, ...]
     fold: np.ndarray
@@ -48,7 +50,9 @@ class HoldOut:
     def __repr__(self) -> str:
         low, high = self.means.min() * 1e3, self.means.max() * 1e3
         count = len(self.folds)
-        return f"<HoldOut: mean error {self.mean * 1e3:.3g} mm, {low:.3g} to {high:.3g} mm over {count} folds>"
+        return (
+            f"<HoldOut: mean error {self.mean * 1e3:.3g} mm, {low:.3g} to {high:.3g} mm over {count} folds>"
+        )
 
 
 def distances(residual: np.ndarray) -> np.ndarray:
@@ -63,7 +67,9 @@ def fold_labels(data: Measurements, folds: Folds) -> tuple[tuple[str, ...], np.n
     n = len(data)
     if isinstance(folds, str):
         if folds != "group" or data.group is None:
-            raise RobotError("folds", f"{folds!r}", "a number, a mask, or 'group' for data with a group column")
+            raise RobotError(
+                "folds", f"{folds!r}", "a number, a mask, or 'group' for data with a group column"
+            )
         names = tuple(dict.fromkeys(data.group))
         return _checked(names, np.array([names.index(name) for name in data.group]))
     if isinstance(folds, int | np.integer) and not isinstance(folds, bool):
@@ -74,7 +80,9 @@ def fold_labels(data: Measurements, folds: Folds) -> tuple[tuple[str, ...], np.n
         return tuple(f"{data.row_name(p[0])} to {data.row_name(p[-1])}" for p in parts), label
     mask = np.asarray(folds)
     if mask.shape != (n,) or mask.dtype != bool or mask.all() or not mask.any():
-        raise RobotError("folds", f"an array {mask.shape} of {mask.dtype}", f"{n} booleans, some of them true")
+        raise RobotError(
+            "folds", f"an array {mask.shape} of {mask.dtype}", f"{n} booleans, some of them true"
+        )
     return ("rows held out",), np.where(mask, 0, -1)
 
 

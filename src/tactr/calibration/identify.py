@@ -1,8 +1,8 @@
 """What the data say of the free numbers: standard errors, correlation, and what they do not see.
 
-In numbers divided by their scales, the information that a fit has is A^T A of the stacked rows A: derivatives of
-the predictions over their noise, and one row for every prior. Its singular vectors are the combinations that
-the data tell apart, each with the standard error 1 / singular value.
+In numbers divided by their scales, the information that a fit has is A^T A of the stacked rows A: derivatives
+of the predictions over their noise, and one row for every prior. Its singular vectors are the combinations
+that the data tell apart, each with the standard error 1 / singular value.
 """
 
 from __future__ import annotations
@@ -22,22 +22,24 @@ SHARE = 0.05  # of a combination, for a number to be named in it
 
 @dataclass(frozen=True)
 class Unseen:
-    """A combination of free numbers that the data do not see: weights (in their scales, length 1) by name, and
-    its standard error in scales, infinite where the predictions do not change at all."""
+    """A combination of free numbers that the data do not see: weights by name (in their scales, length 1),
+    and its standard error in scales, infinite where the predictions do not change at all."""
 
     weights: dict[str, float]
     error: float
 
     def __str__(self) -> str:
         parts = " ".join(f"{'+' if w > 0 else '-'} {abs(w):.2f} {name}" for name, w in self.weights.items())
-        size = "changes no prediction" if np.isinf(self.error) else f"is known to {self.error:.3g} scales only"
+        size = (
+            "changes no prediction" if np.isinf(self.error) else f"is known to {self.error:.3g} scales only"
+        )
         return f"{parts.removeprefix('+ ')} {size}"
 
 
 @dataclass(frozen=True)
 class Knowledge:
-    """errors: standard errors (free,) in SI units, NaN for numbers that are not identifiable or at a bound.
-    covariance: (free, free), of those alone, NaN elsewhere. unseen: combinations. identifiable, (free,) bool."""
+    """errors: standard errors (free,), SI units, NaN for numbers that are not identifiable or at a bound;
+    covariance: (free, free), NaN there; unseen: combinations; identifiable: (free,) bool."""
 
     errors: np.ndarray
     covariance: np.ndarray

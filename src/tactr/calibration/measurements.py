@@ -30,10 +30,10 @@ class Measurements:
     """Measured poses, n rows in the order of time.
 
     points: (n, k, 3) m in the sensor's axes, NaN where a point was not seen. places: where on the robot, k
-    of them: s in m from the guide's exit, ascending, or None for the tip, the last. displacement (m), tension (N),
-    rotation (rad), translation (m): from the names of tendons or tubes to (n,) numbers; what is not measured stays
-    as the robot has it. time: (n,) s. group: a text for each row, such as the motion it belongs to. lines: (n,)
-    where the rows stand in their file. remarks: what reading them found. Raises RobotError.
+    of them: s in m from the guide's exit, ascending, or None for the tip, the last. displacement (m), tension
+    (N), rotation (rad), translation (m): from the names of tendons or tubes to (n,) numbers; what is not
+    measured stays as the robot has it. time: (n,) s. group: a text for each row, such as the motion it
+    belongs to. lines: (n,) of the rows in their file. remarks: what reading them found. Raises RobotError.
     """
 
     points: np.ndarray
@@ -69,11 +69,11 @@ class Measurements:
     def read(cls, path: str | Path, *, columns: str | Path | Mapping[str, str] | None = None) -> Measurements:
         """From a CSV file. Columns are called by quantity and unit:
 
-        "displacement.NAME [mm]", "tension.NAME [N]", "rotation.NAME [deg]", "translation.NAME [mm]", "tip.x [mm]" (and
-        y, z), "at 120 mm.x [mm]" (a point at s = 120 mm), "time [s]", "group". Lines that start with # are
-        skipped. columns: for files that call them otherwise, a mapping from such quantities to "their column
-        [unit]", or a YAML file that holds one; columns that it does not name are left out. Rows with missing
-        numbers are left out, with a remark. Raises FileError with line and column.
+        "displacement.NAME [mm]", "tension.NAME [N]", "rotation.NAME [deg]", "translation.NAME [mm]",
+        "tip.x [mm]" (and y, z), "at 120 mm.x [mm]" (a point at s = 120 mm), "time [s]", "group". Lines that
+        start with # are skipped. columns: for files that call them otherwise, a mapping from such quantities
+        to "their column [unit]", or a YAML file that holds one; columns that it does not name are left out.
+        Rows with missing numbers are left out, with a remark. Raises FileError with line and column.
         """
         from tactr.calibration.read_csv import read_measurements
 

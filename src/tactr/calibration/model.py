@@ -154,7 +154,7 @@ class Model:
         if tip:
             into[-1] -= cross_matrix(shape.tip_orientation @ marker) @ poses[-1, 3:]
         into[:] = R @ into
-        robot_points = (self._points(shape, frame) - np.array(frame.position))
+        robot_points = self._points(shape, frame) - np.array(frame.position)
         turns = rotation_rates(np.array(frame.rotation))
         for k, free in enumerate(self.frees):
             for path in free.paths:
@@ -175,7 +175,9 @@ def _as_displacement(path: str) -> str:
 
 
 def _framed(frame: Frame, path: str, value: float) -> Frame:
-    name = "marker" if path.startswith("marker") else "rotation" if path.startswith("sensor.r") else "position"
+    name = (
+        "marker" if path.startswith("marker") else "rotation" if path.startswith("sensor.r") else "position"
+    )
     vector = list(getattr(frame, name))
     vector["xyz".index(path[-1])] = value
     return replace(frame, **{name: tuple(vector)})

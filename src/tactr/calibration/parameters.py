@@ -14,7 +14,17 @@ from tactr.robot import Robot
 from tactr.robot import _check as check
 from tactr.statics.parameters import value_of
 
-FRAME = ("marker.x", "marker.y", "marker.z", "sensor.x", "sensor.y", "sensor.z", "sensor.rx", "sensor.ry", "sensor.rz")
+FRAME = (
+    "marker.x",
+    "marker.y",
+    "marker.z",
+    "sensor.x",
+    "sensor.y",
+    "sensor.z",
+    "sensor.rx",
+    "sensor.ry",
+    "sensor.rz",
+)
 ZERO = "zero"
 KIND_OF = {  # by the last word of a path; lengths otherwise
     "modulus": ("E", "G"),
@@ -29,7 +39,14 @@ KIND_OF = {  # by the last word of a path; lengths otherwise
     "axial or shear stiffness": ("EA", "GA"),
 }
 INSIDE = {"precurvature": "curvature", "force": "force", "moment": "moment", "acceleration": "acceleration"}
-LEAST_SCALE = {"length": 1e-2, "angle": 0.3, "force": 1.0, "compliance": 1e-4, "curvature": 1.0, "number": 0.1}
+LEAST_SCALE = {
+    "length": 1e-2,
+    "angle": 0.3,
+    "force": 1.0,
+    "compliance": 1e-4,
+    "curvature": 1.0,
+    "number": 0.1,
+}
 NEVER_NEGATIVE = ("compliance", "pretension", "radius", "tension", "nu")
 POSITIVE = (
     "E", "G", "density", "linear_density", "EI_x", "EI_y", "GJ", "EA", "GA", "length", "rest_length", "end",
@@ -90,9 +107,11 @@ class Free:
     kind: Kind
 
 
-def expanded(robot: Robot, parameters: Sequence[str | Parameter], measured: Sequence[str]) -> tuple[Free, ...]:
+def expanded(
+    robot: Robot, parameters: Sequence[str | Parameter], measured: Sequence[str]
+) -> tuple[Free, ...]:
     """Every free number. measured: tendons whose displacement was measured. Raises RobotError."""
-    known = _paths(robot, measured)
+    known = known_paths(robot, measured)
     frees: list[Free] = []
     for given in parameters:
         parameter = Parameter(given) if isinstance(given, str) else given
@@ -110,18 +129,21 @@ def expanded(robot: Robot, parameters: Sequence[str | Parameter], measured: Sequ
 
 def _matching(robot: Robot, path: str, known: list[str]) -> list[str]:
     short = f"{path[:-2]}.material{path[-2:]}" if path.endswith((".E", ".G")) else path
-    for short in (path, short):
-        found = [candidate for candidate in known if fnmatch.fnmatchcase(candidate, _escaped(short))]
+    for each in (path, short):
+        found = [candidate for candidate in known if fnmatch.fnmatchcase(candidate, _escaped(each))]
         if found:
             return found
-    raise RobotError("parameters", f"nothing of the robot is called {path!r}", check.near(path, known)[:600], value=path)
+    raise RobotError(
+        "parameters", f"nothing of the robot is called {path!r}", check.near(path, known)[:600], value=path
+    )
 
 
 def _escaped(path: str) -> str:
     return path.replace("[", "[[]")
 
 
-def _paths(robot: Robot, measured: Sequence[str]) -> list[str]:
+def known_paths(robot: Robot, measured: Sequence[str]) -> list[str]:
+    """All that can be free. measured: tendons whose displacement was measured."""
     paths: list[str] = []
     for group in ("tubes", "tendons", "loads"):
         members = getattr(robot, group)
@@ -148,7 +170,7 @@ def _walk(owner: Any, path: str, paths: list[str]) -> None:
 
 def _free(robot: Robot, parameter: Parameter, paths: tuple[str, ...]) -> Free:
     name = parameter.path if len(paths) > 1 else paths[0]
-    kind, last = _kind(paths[0]), paths[0].rpartition(".")[2]
+    kind, last = kind_of(paths[0]), paths[0].rpartition(".")[2]
     values = [_value(robot, path) for path in paths]
     start = parameter.start if parameter.start is not None else sum(values) / len(values)
     lower, upper = parameter.lower, parameter.upper
@@ -159,7 +181,9 @@ def _free(robot: Robot, parameter: Parameter, paths: tuple[str, ...]) -> Free:
     if last == "nu":
         upper = min(upper, 0.5)
     if not lower <= start <= upper:
-        raise RobotError(name, f"it starts at {start:g}", f"a start within {lower:g} to {upper:g}", value=start)
+        raise RobotError(
+            name, f"it starts at {start:g}", f"a start within {lower:g} to {upper:g}", value=start
+        )
     scale = parameter.scale
     if scale is None:
         scale = max(abs(start), LEAST_SCALE.get(kind.name, 0.0)) or 1.0
@@ -172,7 +196,8 @@ def _value(robot: Robot, path: str) -> float:
     return 0.0 if path in FRAME or path.endswith(f".{ZERO}") else value_of(robot, path)
 
 
-def _kind(path: str) -> Kind:
+def kind_of(path: str) -> Kind:
+    """The kind of quantity that a path names."""
     last = path.rpartition(".")[2]
     for step, kind in INSIDE.items():
         if f".{step}." in path:

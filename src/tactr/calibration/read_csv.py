@@ -152,7 +152,11 @@ def _factor(path: Path, line: int, name: str, unit: str | None, what: str) -> fl
         return parse_quantity(f"1 {unit}", kind(what))
     except UnitError as error:
         raise FileError(
-            f"unit [{printable(unit)}]: {error.found}", path=path, line=line, field=name, expected=error.expected
+            f"unit [{printable(unit)}]: {error.found}",
+            path=path,
+            line=line,
+            field=name,
+            expected=error.expected,
         ) from None
 
 
@@ -161,7 +165,9 @@ def _built(path: Path, columns: list[Column], rows: list[tuple[int, list[str]]])
     places = sorted({float(q[:-2]) for q in numbers if q[0].isdigit()})
     names = [repr(place) for place in places] + (["tip"] if "tip.x" in numbers else [])
     points = np.stack([np.stack([numbers[f"{p}.{a}"] for a in "xyz"], axis=1) for p in names], axis=1)
-    actuation = {k: {q[len(k) + 1 :]: v for q, v in numbers.items() if q.startswith(f"{k}.")} for k in ACTUATION}
+    actuation = {
+        k: {q[len(k) + 1 :]: v for q, v in numbers.items() if q.startswith(f"{k}.")} for k in ACTUATION
+    }
     whole = np.isfinite(points).all(axis=2).any(axis=1)
     for kinds in actuation.values():
         for values in kinds.values():

@@ -17,7 +17,9 @@ def as_text(result: Calibration) -> str:
     """Estimates, what is not seen, scores, remarks."""
     parts = [_table(result.estimates)] if result.estimates else []
     if result.unseen:
-        parts.append("\n".join(["combinations that the data do not see:", *(f"  {c}" for c in result.unseen)]))
+        parts.append(
+            "\n".join(["combinations that the data do not see:", *(f"  {c}" for c in result.unseen)])
+        )
     strong = _strong(result)
     if strong:
         parts.append("\n".join(["strong correlations:", *(f"  {a} and {b}: {c:z.2f}" for a, b, c in strong)]))
@@ -85,7 +87,11 @@ def _table(estimates: tuple[Estimate, ...]) -> str:
         if e.value is None:
             rows.append([e.name, e.state, "", "", start])
             continue
-        digits = 6 if e.error is None else int(np.clip(np.ceil(np.log10(abs(e.value / e.error) + 1e-9)) + 2, 2, 12))
+        digits = (
+            6
+            if e.error is None
+            else int(np.clip(np.ceil(np.log10(abs(e.value / e.error) + 1e-9)) + 2, 2, 12))
+        )
         value = f"{e.value * factor:.{digits}g} {unit}".rstrip()
         if e.error is None or e.interval is None:
             rows.append([e.name, value, e.state, "", start])
@@ -94,7 +100,8 @@ def _table(estimates: tuple[Estimate, ...]) -> str:
         rows.append([e.name, value, f"{e.error * factor:.2g}", f"{low} to {high}", start])
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return "\n".join(
-        "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows
+        "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
     )
 
 
@@ -124,4 +131,6 @@ def _scores(result: Calibration) -> str:
 def _told(summary: dict[str, float]) -> str:
     mean, share = summary["mean"] * 1e3, summary["mean_share_of_length"] * 100
     median, largest = summary["median"] * 1e3, summary["largest"] * 1e3
-    return f"mean {mean:.3g} mm ({share:.2g} % of the length), median {median:.3g} mm, largest {largest:.3g} mm"
+    return (
+        f"mean {mean:.3g} mm ({share:.2g} % of the length), median {median:.3g} mm, largest {largest:.3g} mm"
+    )

@@ -79,7 +79,9 @@ class Calibration:
         freedom = int(np.isfinite(found.residual).sum()) - len(model.frees)
         wide = _quantile(freedom if unknown_noise else np.inf)
         estimates = [
-            _estimate(free, found.values[k], known.errors[k], bool(found.held[k]), bool(known.identifiable[k]), wide)
+            _estimate(
+                free, found.values[k], known.errors[k], bool(found.held[k]), bool(known.identifiable[k]), wide
+            )
             for k, free in enumerate(model.frees)
         ]
         return cls(
@@ -146,9 +148,13 @@ class Calibration:
         return f"<Calibration: {found} of {len(self.estimates)} numbers found, mean error {error:.3g} mm>"
 
 
-def _estimate(free: Free, value: float, error: float, held: bool, identifiable: bool, wide: float) -> Estimate:
+def _estimate(
+    free: Free, value: float, error: float, held: bool, identifiable: bool, wide: float
+) -> Estimate:
     unit = free.kind.units[-1] if free.kind.name != "modulus" else "Pa"
-    unit = {"length": "m", "angle": "rad", "compliance": "m/N", "axial or shear stiffness": "N"}.get(free.kind.name, unit)
+    unit = {"length": "m", "angle": "rad", "compliance": "m/N", "axial or shear stiffness": "N"}.get(
+        free.kind.name, unit
+    )
     if held:
         return Estimate(free.name, float(value), None, None, free.start, unit, "at its bound")
     if not identifiable:
@@ -158,7 +164,7 @@ def _estimate(free: Free, value: float, error: float, held: bool, identifiable: 
 
 
 def _quantile(freedom: float) -> float:
-    """Half the width of the interval, in standard errors: Student's t, whose stats module is slow to import."""
+    """Half the width of the interval, in standard errors (Student's t; scipy.stats is slow to import)."""
     from scipy.special import stdtrit
 
     return float(stdtrit(max(freedom, 1.0) if np.isfinite(freedom) else 1e9, 0.5 + 0.5 * CONFIDENCE))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -24,9 +23,9 @@ STEPS = 60
 
 @dataclass(frozen=True)
 class Found:
-    """values (free,); cost; noise, m; residual (n, k, 3) m, prediction - measurement, NaN where there is none;
-    jacobian (numbers, free) of the finite ones, m per SI unit, weighted as the loss asks for; held: (free,)
-    bool, at a bound; converged, and what the search said."""
+    """values (free,); cost; noise, m; residual (n, k, 3) m, prediction - measurement, NaN where there is
+    none; jacobian (numbers, free) of the finite ones, m per SI unit, weighted as the loss asks for; held:
+    (free,) bool, at a bound; converged, and what the search said."""
 
     values: np.ndarray
     cost: float

@@ -65,7 +65,7 @@ def actuator_column(robot: Robot, path: str) -> int | None:
 
 
 def rates_of(robot: Robot, *paths: str) -> _core.PreparedRobot:
-    """d(tables)/d(number at the path), with the layout of the robot's tables; of several paths, all together."""
+    """d(tables)/d(number at the path), with the layout of its tables; of several paths, together."""
     values, base = [value_of(robot, path) for path in paths], tables(robot)
     step = max(RELATIVE_STEP * max(map(abs, values)), LEAST_STEP)
 

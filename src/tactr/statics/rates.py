@@ -1,7 +1,7 @@
 """How a shape changes with numbers of the robot's description, its motors held where they are.
 
 The kernel differentiates at held tensions. Where tendons are pulled by displacements, their tensions follow:
-the gaps F(T, p) = l_rest(p) - l(T, p) + compliance (T - pretension) - d of the taut tendons stay zero, so that
+the gaps F = l_rest(p) - l(T, p) + compliance (T - pretension) - d of the taut tendons stay zero, so that
 
     dT/dp = -(dF/dT)^-1 dF/dp,   d pose/dp = d pose/dp at held tensions + d pose/dT dT/dp
 
@@ -30,8 +30,8 @@ MOTOR = ("displacement", "compliance", "pretension", "rest_length")
 class Rates:
     """Derivatives with respect to numbers of one robot, at any actuation of it and any of its shapes.
 
-    parameters: paths as in ``Shape.sensitivity``, or tuples of paths that change together, by the same number;
-    those of actuators and motors (see MOTOR) stand alone. Raises RobotError for an unknown one.
+    parameters: paths as in ``Shape.sensitivity``, or tuples of paths that change together, by the same
+    number; those of actuators and motors (see MOTOR) stand alone. Raises RobotError for an unknown one.
     """
 
     def __init__(self, robot: Robot, parameters: Sequence[str | tuple[str, ...]]) -> None:
@@ -39,7 +39,9 @@ class Rates:
         self._robot = robot
         self._bare = robot.replace(loads=()) if robot.loads else robot
         self._tendons = len(robot.tendons)
-        self._motors = {k: motor for k, paths in enumerate(self.parameters) if (motor := _motor(robot, paths[0]))}
+        self._motors = {
+            k: motor for k, paths in enumerate(self.parameters) if (motor := _motor(robot, paths[0]))
+        }
         self._columns: dict[int, int] = {}
         self._rates: list[_core.PreparedRobot] = []
         self._bare_rates: list[_core.PreparedRobot] = []
@@ -64,7 +66,9 @@ class Rates:
         rows = 6 * (1 + len(s))
         direct = self._picked(found)
         if pulled is not None:
-            direct = direct[:rows] + found[:rows, : self._tendons] @ self._tensions(shape, pulled, found, direct)
+            direct = direct[:rows] + found[:rows, : self._tendons] @ self._tensions(
+                shape, pulled, found, direct
+            )
         return direct.reshape(1 + len(s), 6, -1)
 
     def _picked(self, found: np.ndarray) -> np.ndarray:
@@ -111,7 +115,9 @@ class Rates:
         solution = rest.solution
         assert solution is not None
         if self._rest is None or self._rest[0] is not solution:
-            found = _core.sensitivities(rest._core, solution, np.array([]), True, True, -1.0, self._bare_rates)
+            found = _core.sensitivities(
+                rest._core, solution, np.array([]), True, True, -1.0, self._bare_rates
+            )
             lengths = self._picked(found)[6:]
             for k, paths in enumerate(self.parameters):
                 held = k in self._columns and self._columns[k] < self._tendons
