@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tactr import examples, materials, reference
+    from tactr.calibration import Calibration, Frame, Measurements, Parameter, calibrate
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
     from tactr.io import load, save
     from tactr.robot import (
@@ -60,6 +61,7 @@ if TYPE_CHECKING:
     )
 
 _HOME = {
+    "tactr.calibration": ("Calibration", "Frame", "Measurements", "Parameter", "calibrate"),
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
     "tactr.io": ("load", "save"),
     "tactr.robot": (
@@ -118,18 +120,22 @@ __all__ = [
     "Along",
     "Annulus",
     "AsymmetricNotches",
+    "Calibration",
     "Contact",
     "DistributedLoad",
     "FileError",
     "Followed",
+    "Frame",
     "Function",
     "Gravity",
     "GuideReaction",
     "Helix",
     "Jacobian",
     "Material",
+    "Measurements",
     "MissingExtra",
     "NotConverged",
+    "Parameter",
     "Piecewise",
     "PointContacts",
     "PointLoad",
@@ -157,6 +163,7 @@ __all__ = [
     "VaryingStiffness",
     "Work",
     "branches",
+    "calibrate",
     "examples",
     "follow",
     "load",

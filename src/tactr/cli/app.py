@@ -54,6 +54,50 @@ def solve(
 
 
 @app.command
+def calibrate(
+    file: str,
+    data: Path,
+    /,
+    *,
+    free: Assignments = [],  # noqa: B006
+    common: Assignments = [],  # noqa: B006
+    set: Assignments = [],  # noqa: B006
+    bounds: Assignments = [],  # noqa: B006
+    prior: Assignments = [],  # noqa: B006
+    columns: Path | None = None,
+    noise: str | None = None,
+    loss: str = "linear",
+    starts: int = 1,
+    folds: str | None = None,
+    json: bool = False,
+    save: Path | None = None,
+    plot: Path | None = None,
+) -> int:
+    """Calibrate a robot from measured points."""
+    from tactr.cli.calibrate import Request, run_calibrate
+
+    return run_calibrate(
+        Request(
+            file,
+            data,
+            free=free,
+            common=common,
+            set=set,
+            bounds=bounds,
+            prior=prior,
+            columns=columns,
+            noise=noise,
+            loss=loss,
+            starts=starts,
+            folds=folds,
+            json=json,
+            save=save,
+            plot=plot,
+        )
+    )
+
+
+@app.command
 def check(files: list[str], /) -> int:
     """Check robot files without solving; every problem is listed with its line."""
     from tactr.cli.check import run_check

@@ -6,6 +6,8 @@ tactr: the shape of tendon-actuated concentric tube robots
 Usage: tactr COMMAND [ARGUMENTS]
 
   solve [FILE]       compute the shape of a robot and report it
+  calibrate FILE DATA.csv
+                     find a robot's numbers from measured points
   check FILE...      check robot files without solving
   schema             print the JSON Schema of robot files, for editors
   examples [NAME]    list the built-in example robots, or print one
@@ -49,6 +51,38 @@ Usage: tactr solve [FILE] [OPTIONS]
 Exit code 2: something is wrong with the input, or no equilibrium was found.
 """
 
+CALIBRATE = """\
+tactr calibrate: find a robot's numbers from measured tips or shapes, and say how well the data tell them
+
+Usage: tactr calibrate FILE DATA.csv --free PATH... [OPTIONS]
+
+  FILE                     a robot file (.yaml, .toml) or the name of a built-in example
+  DATA.csv                 a row for each pose; columns such as "displacement.left [mm]", "tension.outer [N]",
+                           "rotation.inner [deg]", "tip.x [mm]" (and y, z), "at 120 mm.x [mm]", "group"
+
+  --free PATH...           what is free: tubes.outer.E "tendons.*.compliance" tendons.left.zero (what its
+                           motor has pulled at a reading of 0) marker.z (from the tip) sensor.x sensor.rx
+                           (the robot in the sensor's axes, and its turn); * stands for any name, one number
+                           for each
+  --common PATH...         the same, one number for all that fit
+  --set PATH=VALUE...      where a number starts, free or not: marker.z="8 mm"
+  --bounds PATH="LOW, HIGH"...
+                           bounds of a free number, with unit: tubes.outer.E="40 GPa, 80 GPa"
+  --prior PATH="MEAN, DEVIATION"...
+                           what is known of it beforehand
+  --columns FILE.yaml      for files with other columns: a mapping such as  tip.x: marker_x [mm]
+  --noise LENGTH           standard deviation of a measured coordinate; default: from the residuals
+  --loss NAME              linear (least squares), or huber, soft_l1, cauchy for data with outliers
+  --starts N               starts of the search, for problems that are not convex; default 1
+  --folds N                predict each of N blocks of rows from the others, or "group": each group
+
+  --json                   print the result as JSON instead of a report
+  --save FILE.yaml         write the calibrated robot
+  --plot FILE.png          draw the residuals (.png, .pdf, .svg)
+
+Without --free and --common the robot is judged as it is. Exit code 2: something is wrong with the input.
+"""
+
 CHECK = """\
 tactr check: check robot files without solving; every problem is listed with its line
 
@@ -75,4 +109,4 @@ Usage: tactr examples [NAME]
   tactr examples two_tube_90 > my_robot.yaml
 """
 
-COMMANDS = {"solve": SOLVE, "check": CHECK, "schema": SCHEMA, "examples": EXAMPLES}
+COMMANDS = {"solve": SOLVE, "calibrate": CALIBRATE, "check": CHECK, "schema": SCHEMA, "examples": EXAMPLES}

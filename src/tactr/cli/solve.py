@@ -35,8 +35,8 @@ class Request:
 
 def run_solve(request: Request) -> int:
     """Solve, save, plot and report. Returns the exit code: 2 where the solve did not converge."""
-    _check_target("save", request.save, (".nc",))
-    _check_target("plot", request.plot, PICTURES)
+    check_target("save", request.save, (".nc",))
+    check_target("plot", request.plot, PICTURES)
     robot = read_robot(request.file).with_actuation(
         tension=read_assignments("tension", request.tension, "force", bare="N"),
         rotation=read_assignments("rotation", request.rotation, "angle"),
@@ -69,7 +69,8 @@ def _loaded(robot: Robot, request: Request) -> Robot:
     return robot.replace(loads=(*robot.loads, *tips)) if tips else robot
 
 
-def _check_target(option: str, path: Path | None, endings: tuple[str, ...]) -> None:
+def check_target(option: str, path: Path | None, endings: tuple[str, ...]) -> None:
+    """Refuse a file to write whose ending or folder cannot be. Raises UsageError."""
     if path is None:
         return
     if path.suffix.lower() not in endings:

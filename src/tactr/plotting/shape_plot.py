@@ -30,7 +30,7 @@ def plot_shape(shape: Shape, path: str | os.PathLike[str] | None = None) -> Figu
     """
     content = drawing(shape)
     low, high = _limits(content)
-    figure = _figure(high - low)
+    figure = empty_figure(11, min(max(1.6 + 3.0 * (high - low)[2] / (high - low)[0], 4.4), 6.0))
     grid = figure.add_gridspec(1, 3, width_ratios=(1.5, 1, 1))
     _space(figure.add_subplot(grid[0], projection="3d"), content, low, high)
     views = [_projection(figure, grid[k + 1], content, k, low, high) for k in (0, 1)]
@@ -47,8 +47,8 @@ def plot_shape(shape: Shape, path: str | os.PathLike[str] | None = None) -> Figu
     return figure
 
 
-def _figure(extent: np.ndarray) -> Any:
-    """An empty figure, as high as the projections of this extent need."""
+def empty_figure(width: float, height: float) -> Any:
+    """An empty figure of a size in inches. Raises MissingExtra."""
     try:
         from matplotlib.figure import Figure
         from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -65,9 +65,7 @@ def _figure(extent: np.ndarray) -> Any:
             self.savefig(buffer, format="png")
             return buffer.getvalue()
 
-    height = 1.6 + 3.0 * extent[2] / extent[0]
-    layout = ConstrainedLayoutEngine(wspace=0.13)
-    return DisplayedFigure(figsize=(11, min(max(height, 4.4), 6.0)), layout=layout)
+    return DisplayedFigure(figsize=(width, height), layout=ConstrainedLayoutEngine(wspace=0.13))
 
 
 def _limits(content: Drawing) -> tuple[np.ndarray, np.ndarray]:

@@ -14,11 +14,11 @@ import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
-from tactr.robot import Robot
 from tactr.robot import _check as check
-from tactr.statics.parameters import actuator_column, rates_of
+from tactr.statics.rates import Rates
 
 if TYPE_CHECKING:
+    from tactr.robot import Robot
     from tactr.statics.pulls import Pulled
     from tactr.statics.shape import Shape
 
@@ -108,19 +108,17 @@ class Derivatives:
 
         parameters: paths such as "tubes.outer.length", "tubes.outer.material.E",
         "tubes.inner.precurvature.0.1.x", "tendons.pull.routing.radius", "loads.0.force.z",
-        "tendons.pull.tension"; each in the unit that it has in the description. The mechanics is
+        "tendons.pull.tension", "tendons.pull.compliance"; each in the unit that it has in the description.
+        The motors of tendons pulled by displacements are held: their tensions follow. The mechanics is
         differentiated exactly; from the description to the kernel's tables by differences to 1e-10 (see
         ``tactr.statics.parameters``). s: m from the guide's exit, None for the tip, k places give (k, 6,
         parameters). Raises NotConverged, RobotError for an unknown path.
         """
         self._require_convergence()
-        robot, places = self.robot, np.array([]) if s is None else _places(s)
-        held = {path: actuator_column(robot, path) for path in parameters}
-        rates = [rates_of(robot, path) for path, column in held.items() if column is None]
-        matrix = self._matrix(places, actuators=True, rates=rates)
-        after = iter(range(matrix.shape[-1] - len(rates), matrix.shape[-1]))
-        order = {path: next(after) if column is None else column for path, column in held.items()}
-        picked = matrix[..., [order[path] for path in parameters]]
+        places = np.array([]) if s is None else _places(s)
+        outside, order = self._ordered(places)
+        picked = np.zeros((1 + len(places), 6, len(parameters)))
+        picked[[0, *(1 + order)]] = Rates(self.robot, parameters).poses(self, outside)
         turned = _turned(picked, self._frames_at(places, axes))
         if s is None:
             return turned[0]
@@ -132,10 +130,20 @@ class Derivatives:
         *,
         actuators: bool = False,
         probe: float = -1.0,
-        rates: Sequence[_core.PreparedRobot] = (),
     ) -> np.ndarray:
         """(1 + k, 6, columns): the tip, then the places in their own order."""
         self._require_convergence()
+        outside, order = self._ordered(places)
+        found = _core.sensitivities(
+            self._prepared, self._solution, outside, False, actuators, probe, []
+        ).reshape(1 + len(order), 6, -1)
+        matrix = np.zeros((1 + len(places), 6, found.shape[-1]))
+        matrix[0] = found[0]
+        matrix[1 + order] = found[1:]
+        return matrix
+
+    def _ordered(self, places: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The places beyond the guide's exit in ascending order, m, and where they stand in the given one."""
         s = np.asarray(places, dtype=float)
         reach = max(tube.tip for tube in self.robot.tubes)
         if s.size and not (np.isfinite(s).all() and s.min() >= 0.0 and s.max() <= reach * (1 + 1e-12)):
@@ -145,13 +153,7 @@ class Derivatives:
             )
         outside = np.flatnonzero(s > 0.0)
         order = outside[np.argsort(s[outside], kind="stable")]
-        found = _core.sensitivities(
-            self._prepared, self._solution, np.minimum(s[order], reach), False, actuators, probe, list(rates)
-        ).reshape(1 + len(order), 6, -1)
-        matrix = np.zeros((1 + len(s), 6, found.shape[-1]))
-        matrix[0] = found[0]
-        matrix[1 + order] = found[1:]
-        return matrix
+        return np.minimum(s[order], reach), order
 
     def _split(self, matrix: np.ndarray) -> Jacobian:
         tendons, tubes = len(self.robot.tendons), len(self.robot.tubes)

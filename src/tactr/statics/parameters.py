@@ -64,13 +64,16 @@ def actuator_column(robot: Robot, path: str) -> int | None:
     return None
 
 
-def rates_of(robot: Robot, path: str) -> _core.PreparedRobot:
-    """d(tables)/d(number at the path), with the layout of the robot's tables."""
-    value, base = value_of(robot, path), tables(robot)
-    step = max(RELATIVE_STEP * abs(value), LEAST_STEP)
+def rates_of(robot: Robot, *paths: str) -> _core.PreparedRobot:
+    """d(tables)/d(number at the path), with the layout of its tables; of several paths, together."""
+    values, base = [value_of(robot, path) for path in paths], tables(robot)
+    step = max(RELATIVE_STEP * max(map(abs, values)), LEAST_STEP)
 
     def at(shift: float) -> Tables:
-        return tables(with_value(robot, path, value + shift))
+        moved = robot
+        for path, value in zip(paths, values, strict=True):
+            moved = with_value(moved, path, value + shift)
+        return tables(moved)
 
     rates = _differences(at, base, step)
     for name, columns in WHOLE_NUMBERS.items():

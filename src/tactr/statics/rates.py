@@ -1,0 +1,146 @@
+"""How a shape changes with numbers of the robot's description, its motors held where they are.
+
+The kernel differentiates at held tensions. Where tendons are pulled by displacements, their tensions follow:
+the gaps F = l_rest(p) - l(T, p) + compliance (T - pretension) - d of the taut tendons stay zero, so that
+
+    dT/dp = -(dF/dT)^-1 dF/dp,   d pose/dp = d pose/dp at held tensions + d pose/dT dT/dp
+
+by the implicit function theorem; slack tendons keep their zero tension.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tactr import _core
+from tactr.robot import Robot
+from tactr.statics._complementary import SINGULAR
+from tactr.statics.parameters import actuator_column, rates_of, value_of
+
+if TYPE_CHECKING:
+    from tactr.statics.pulls import Pulled
+    from tactr.statics.shape import Shape
+
+MOTOR = ("displacement", "compliance", "pretension", "rest_length")
+
+
+class Rates:
+    """Derivatives with respect to numbers of one robot, at any actuation of it and any of its shapes.
+
+    parameters: paths as in ``Shape.sensitivity``, or tuples of paths that change together, by the same
+    number; those of actuators and motors (see MOTOR) stand alone. Raises RobotError for an unknown one.
+    """
+
+    def __init__(self, robot: Robot, parameters: Sequence[str | tuple[str, ...]]) -> None:
+        self.parameters = tuple((p,) if isinstance(p, str) else p for p in parameters)
+        self._robot = robot
+        self._bare = robot.replace(loads=()) if robot.loads else robot
+        self._tendons = len(robot.tendons)
+        self._motors = {
+            k: motor for k, paths in enumerate(self.parameters) if (motor := _motor(robot, paths[0]))
+        }
+        self._columns: dict[int, int] = {}
+        self._rates: list[_core.PreparedRobot] = []
+        self._bare_rates: list[_core.PreparedRobot] = []
+        actuators = self._tendons + 2 * len(robot.tubes)
+        for k, paths in enumerate(self.parameters):
+            if k in self._motors:
+                continue
+            held = actuator_column(robot, paths[0])
+            self._columns[k] = actuators + len(self._rates) if held is None else held
+            if held is None:
+                self._rates.append(rates_of(robot, *paths))
+                bare = [path for path in paths if not path.startswith("loads.")] if robot.loads else []
+                self._bare_rates.append(rates_of(self._bare, *bare) if bare else self._rates[-1])
+        self._rest: tuple[_core.Solution, np.ndarray] | None = None
+
+    def poses(self, shape: Shape, s: np.ndarray) -> np.ndarray:
+        """(1 + k, 6, parameters), world axes: the tip, then the points at s (k,) m, ascending, above 0."""
+        pulled = shape._pulled
+        found = _core.sensitivities(
+            shape._prepared, shape._solution, s, pulled is not None, True, -1.0, self._rates
+        )
+        rows = 6 * (1 + len(s))
+        direct = self._picked(found)
+        if pulled is not None:
+            direct = direct[:rows] + found[:rows, : self._tendons] @ self._tensions(
+                shape, pulled, found, direct
+            )
+        return direct.reshape(1 + len(s), 6, -1)
+
+    def _picked(self, found: np.ndarray) -> np.ndarray:
+        """At held tensions; the motors' numbers then change nothing."""
+        picked = np.zeros((len(found), len(self.parameters)))
+        picked[:, list(self._columns)] = found[:, list(self._columns.values())]
+        return picked
+
+    def _tensions(self, shape: Shape, pulled: Pulled, found: np.ndarray, direct: np.ndarray) -> np.ndarray:
+        """d tension/dp, (tendons, parameters)."""
+        pulls, solution = pulled.pulls, shape._solution
+        gap = self._references(shape) - direct[-self._tendons :]
+        for k, (field, j) in self._motors.items():
+            if field == "displacement":
+                gap[j, k] -= 1.0
+            elif field == "compliance":
+                gap[j, k] += solution.tension[j] - self._robot.tendons[j].pretension
+        taut = pulls.index[pulled.tension > 0.0]
+        lengths = found[-self._tendons :, : self._tendons]
+        compliance = np.array([tendon.compliance for tendon in self._robot.tendons])
+        flexibility = (np.diag(compliance) - lengths)[np.ix_(taut, taut)]
+        rates = np.zeros_like(gap)
+        rates[taut] = -np.linalg.pinv(flexibility, rcond=SINGULAR) @ gap[taut]
+        return rates
+
+    def _references(self, shape: Shape) -> np.ndarray:
+        """d(l_rest - compliance pretension)/dp, (tendons, parameters)."""
+        tendons, found = self._robot.tendons, np.zeros((self._tendons, len(self.parameters)))
+        free = np.array([tendon.rest_length is None for tendon in tendons], dtype=bool)
+        if free.any():
+            found[free] = self._rest_rates(shape)[free]
+        for k, (field, j) in self._motors.items():
+            if field == "pretension":
+                found[j, k] -= tendons[j].compliance
+            elif field == "rest_length" and not free[j]:
+                found[j, k] += 1.0
+        return found
+
+    def _rest_rates(self, shape: Shape) -> np.ndarray:
+        """d(lengths in the rest state)/dp; remembered for the rest state last seen."""
+        rest = shape._rest()
+        robot = shape.robot
+        rest.measured(*(np.array([getattr(t, n) for t in robot.tubes]) for n in ("rotation", "translation")))
+        solution = rest.solution
+        assert solution is not None
+        if self._rest is None or self._rest[0] is not solution:
+            found = _core.sensitivities(
+                rest._core, solution, np.array([]), True, True, -1.0, self._bare_rates
+            )
+            lengths = self._picked(found)[6:]
+            for k, paths in enumerate(self.parameters):
+                held = k in self._columns and self._columns[k] < self._tendons
+                if held or all(path.startswith("loads.") for path in paths):
+                    lengths[:, k] = 0.0  # there are no loads in it, and no tensions but pretensions
+            for k, (field, j) in self._motors.items():
+                if field == "pretension":
+                    lengths[:, k] = found[6:, j]
+            self._rest = solution, lengths
+        return self._rest[1]
+
+
+def stands_alone(robot: Robot, path: str) -> bool:
+    """Whether a path is an actuator's or a motor's, which the kernel's tables do not hold."""
+    return _motor(robot, path) is not None or actuator_column(robot, path) is not None
+
+
+def _motor(robot: Robot, path: str) -> tuple[str, int] | None:
+    """Which of a tendon's numbers that only its motor knows, and of which tendon."""
+    group, _, rest = path.partition(".")
+    name, _, field = rest.rpartition(".")
+    names = [tendon.name for tendon in robot.tendons]
+    if group != "tendons" or field not in MOTOR or name not in names:
+        return None
+    value_of(robot, path)
+    return field, names.index(name)
