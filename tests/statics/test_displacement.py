@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import tactr
-from tactr import RobotError, Status, Straight, Tendon, examples
+from tactr import PointLoad, RobotError, Status, Straight, Tendon, examples
 from tactr.statics import Prepared
+from tactr.statics.parameters import value_of, with_value
 
 
 def sprung(robot, compliance=1e-4):
@@ -87,22 +88,74 @@ def test_a_path_through_slack_is_continuous():
     assert {("inner",), ("back",)} <= states
 
 
-def test_derivatives_by_displacement():
-    prepared = Prepared(antagonists(), tolerance=1e-10, stations=2)
-    pull, h = np.array([1.5e-3, 3e-3, -2.9e-3]), 1e-7
-    for given in (pull, np.array([1.5e-3, 3e-3, -9e-3]), np.array([np.nan, 3e-3, -2.9e-3])):
-        shape = prepared.solve(displacement=given)
-        exact = shape.tip_jacobian().displacement
-        for j in range(3):
-            step = np.where(np.arange(3) == j, h, 0.0)
-            ends = [prepared.solve(displacement=given + sign * step, guess=shape) for sign in (1, -1)]
-            found = (ends[0].tip_position - ends[1].tip_position) / (2 * h)
-            if np.isnan(given[j]):
-                found = np.zeros(3)
-            assert exact[:3, j] == pytest.approx(found, rel=1e-3, abs=2e-3 * np.abs(exact[:3]).max())
-    slack = prepared.solve(displacement=np.array([1.5e-3, 3e-3, -9e-3]))
-    assert slack.slack == ("back",)
-    assert not slack.tip_jacobian().displacement[:, 2].any()
+HELD = [  # displacements, m; NaN: a tension instead
+    np.array([1.5e-3, 3e-3, -2.9e-3]),
+    np.array([1.5e-3, 3e-3, -9e-3]),
+    np.array([np.nan, 3e-3, -2.9e-3]),
+]
+
+
+def motion(after, before):
+    """Shift and turn of the tip, (6,)."""
+    turn = after.tip_orientation @ before.tip_orientation.T
+    axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    return np.concatenate([after.tip_position - before.tip_position, 0.5 * axis])
+
+
+@pytest.mark.parametrize("tied", [False, True])
+@pytest.mark.parametrize("given", HELD, ids=["taut", "one slack", "one by tension"])
+def test_derivatives_with_the_motors_held(given, tied):
+    """Of every actuator, the others held; of lengths, moduli and motors; and the compliance of the tip."""
+    robot = antagonists().replace(tendons=[replace(t, compliance=1e-4) for t in antagonists().tendons])
+    robot = robot.with_actuation(translation={"inner": -0.02, "outer": -0.03})
+    if tied:
+        lengths = tactr.rest_lengths(robot)
+        robot = robot.replace(tendons=[replace(t, rest_length=lengths[t.name]) for t in robot.tendons])
+    asked = {t.name: d for t, d in zip(robot.tendons, given, strict=True) if not np.isnan(d)}
+    robot = robot.with_actuation(displacement=asked)
+    shape = tactr.solve(robot, tolerance=1e-10)
+
+    def check(column, path, step):
+        value = value_of(robot, path)
+        ends = [
+            tactr.solve(with_value(robot, path, value + k * step), guess=shape, tolerance=1e-10)
+            for k in (1, -1, 2, -2)
+        ]
+        expected = (8 * motion(ends[0], ends[1]) - motion(ends[2], ends[3])) / (12 * step)
+        scale = max(abs(value), 100 * step)
+        for rows in (slice(0, 3), slice(3, 6)):
+            size = max(scale * np.abs(expected[rows]).max(), 1e-6)
+            assert scale * column[rows] == pytest.approx(scale * expected[rows], abs=1e-5 * size), path
+
+    jacobian = shape.tip_jacobian()
+    for j, tendon in enumerate(robot.tendons):
+        if tendon.displacement is None:
+            check(jacobian.tension[:, j], f"tendons.{tendon.name}.tension", 1e-3)
+            assert not jacobian.displacement[:, j].any()
+        else:
+            check(jacobian.displacement[:, j], f"tendons.{tendon.name}.displacement", 1e-5)
+            assert not jacobian.tension[:, j].any()
+    for i, tube in enumerate(robot.tubes):
+        check(jacobian.rotation[:, i], f"tubes.{tube.name}.rotation", 1e-3)
+        check(jacobian.translation[:, i], f"tubes.{tube.name}.translation", 2e-5)
+    paths = [
+        "tubes.inner.length",
+        "tubes.outer.material.E",
+        "tendons.inner.compliance",
+        "tendons.inner.routing.x",
+    ]
+    for path, column in zip(paths, shape.sensitivity(paths).T, strict=True):
+        check(column, path, 1e-4 * abs(value_of(robot, path)))
+
+    def pushed(row, h):
+        force, moment = np.split(h * np.eye(6)[row], 2)
+        load = PointLoad("inner", force=tuple(force), moment=tuple(moment))
+        return tactr.solve(robot.replace(loads=[load]), guess=shape, tolerance=1e-10)
+
+    for row, h in enumerate([1e-3] * 3 + [1e-4] * 3):
+        near, far = (motion(pushed(row, k * h), pushed(row, -k * h)) / (2 * k * h) for k in (1, 2))
+        expected = (4 * near - far) / 3
+        assert shape.compliance()[:, row] == pytest.approx(expected, abs=1e-5 * np.abs(expected).max())
 
 
 def test_tied_tendons_keep_their_length_where_the_tubes_turn(robot):

@@ -344,7 +344,7 @@ def meeting(tube: str, other: str, shift: float) -> Robot:
 @pytest.mark.parametrize("shift", [2e-4, 2e-5, 0.0, -2e-5, -2e-4])
 @pytest.mark.parametrize(("tube", "other"), PASSING)
 def test_everything_across_tube_ends_that_pass_each_other(tube: str, other: str, shift: float) -> None:
-    """Before, where they meet (there on one side) and beyond: actuators and all other numbers of the robot."""
+    """Before, where they meet (there on one side) and beyond: actuators and all other numbers."""
     robot = meeting(tube, other, shift)
     shape = tactr.solve(robot, tolerance=TOLERANCE)
     paths = asked(pushed_and_loaded)

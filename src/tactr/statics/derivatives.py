@@ -8,14 +8,14 @@ material frame of the innermost tube at the point.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import _check as check
-from tactr.statics.rates import Rates
+from tactr.statics.rates import Rates, actuator_rates, followed_tensions
 
 if TYPE_CHECKING:
     from tactr.robot import Robot
@@ -28,12 +28,12 @@ Axes = Literal["world", "body"]
 class Jacobian(NamedTuple):
     """Derivatives of a point's pose, six rows: its shift (m) and rotation (rad). Of k points: k first.
 
-    tension (..., 6, tendons), per N; rotation (..., 6, tubes), per rad; translation (..., 6, tubes), per m:
-    at the present tensions of all tendons, also of those pulled by displacements. A tendon with a
-    TensionProfile counts per unit of a factor on the whole profile. displacement (..., 6, tendons), per m:
-    the motors of all tendons pulled by displacements held but one, the other tendons at their tension; 0 for
-    slack tendons and for those pulled by a tension. Where a slack tendon is about to be taut it is the
-    derivative on the slack side.
+    tension (..., 6, tendons), per N; displacement (..., 6, tendons), per m; rotation (..., 6, tubes), per
+    rad; translation (..., 6, tubes), per m. Each with all other actuators held: the motors of tendons pulled
+    by displacements (their tensions follow), the tensions of the others. 0 where a tendon is not actuated
+    so, and for slack tendons' displacements; where a slack tendon is about to be taut they are the
+    derivatives on the slack side. A tendon with a TensionProfile counts per unit of a factor on the whole
+    profile.
     """
 
     tension: np.ndarray
@@ -68,25 +68,22 @@ class Derivatives:
         derivative is one-sided: where proximal ends meet each other or the guide's exit, for withdrawing.
         Raises NotConverged.
         """
-        matrix = self._matrix((), actuators=True)
-        return self._split(_turned(matrix, self._frames_at((), axes))[0])
+        return self._jacobian((), axes, 0)
 
     def jacobian(self, s: float | Sequence[float] | np.ndarray, *, axes: Axes = "world") -> Jacobian:
         """The same for the points at s, (k,) m from the guide's exit, or one number.
 
         They stay at their s where tubes are pushed. Raises NotConverged, RobotError for an s off the robot.
         """
-        places = _places(s)
-        matrix = self._matrix(places, actuators=True)
-        moved = _turned(matrix, self._frames_at(places, axes))[1:]
-        return self._split(moved[0] if np.ndim(s) == 0 else moved)
+        return self._jacobian(_places(s), axes, 1 if np.ndim(s) == 0 else slice(1, None))
 
     def compliance(self, s: float | None = None, *, axes: Axes = "world") -> np.ndarray:
         """Motion of the point at s per wrench at it (force in N, then moment in N m), (6, 6), same axes.
 
-        s: m from the guide's exit; None for the tip. The wrench acts on the innermost tube there; tensions,
-        rotations and translations are held. Symmetric where all loads are dead forces and the shape follows
-        from an energy. Raises NotConverged, RobotError for an s off the robot.
+        s: m from the guide's exit; None for the tip. The wrench acts on the innermost tube there; all
+        actuators are held: rotations, translations, tensions, the motors of tendons pulled by displacements.
+        Symmetric where all loads are dead forces and the shape follows from an energy. Raises
+        NotConverged, RobotError for an s off the robot.
         """
         self._require_convergence()
         reach = max(tube.tip for tube in self.robot.tubes)
@@ -94,8 +91,18 @@ class Derivatives:
         if place == 0.0:
             return np.zeros((6, 6))
         places = np.array([place] if place < reach else [])
-        matrix, frames = self._matrix(places, probe=place)[-1], self._frames_at(places, axes)
+        matrix, frames = self._compliance(places, place), self._frames_at(places, axes)
         return matrix if frames is None else _block(frames[-1]).T @ matrix @ _block(frames[-1])
+
+    def _compliance(self, places: np.ndarray, place: float) -> np.ndarray:
+        pulled, tendons = self._pulled, len(self.robot.tendons)
+        follow = pulled is not None
+        found = _core.sensitivities(self._prepared, self._solution, places, follow, follow, place, [])
+        poses, lengths = np.split(found, [6 * (1 + len(places))])
+        held = poses[-6:, -6:]
+        if pulled is None:
+            return held
+        return held + poses[-6:, :tendons] @ followed_tensions(self.robot, pulled, lengths, -lengths[:, -6:])
 
     def sensitivity(
         self,
@@ -118,29 +125,11 @@ class Derivatives:
         places = np.array([]) if s is None else _places(s)
         outside, order = self._ordered(places)
         picked = np.zeros((1 + len(places), 6, len(parameters)))
-        picked[[0, *(1 + order)]] = Rates(self.robot, parameters).poses(self, outside)
+        picked[[0, *(1 + order)]] = Rates(self.robot, parameters).poses(cast("Shape", self), outside)
         turned = _turned(picked, self._frames_at(places, axes))
         if s is None:
             return turned[0]
         return turned[1] if np.ndim(s) == 0 else turned[1:]
-
-    def _matrix(
-        self,
-        places: Sequence[float] | np.ndarray,
-        *,
-        actuators: bool = False,
-        probe: float = -1.0,
-    ) -> np.ndarray:
-        """(1 + k, 6, columns): the tip, then the places in their own order."""
-        self._require_convergence()
-        outside, order = self._ordered(places)
-        found = _core.sensitivities(
-            self._prepared, self._solution, outside, False, actuators, probe, []
-        ).reshape(1 + len(order), 6, -1)
-        matrix = np.zeros((1 + len(places), 6, found.shape[-1]))
-        matrix[0] = found[0]
-        matrix[1 + order] = found[1:]
-        return matrix
 
     def _ordered(self, places: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The places beyond the guide's exit in ascending order, m, and where they stand in the given one."""
@@ -155,12 +144,16 @@ class Derivatives:
         order = outside[np.argsort(s[outside], kind="stable")]
         return np.minimum(s[order], reach), order
 
-    def _split(self, matrix: np.ndarray) -> Jacobian:
+    def _jacobian(self, places: Sequence[float] | np.ndarray, axes: Axes, which: int | slice) -> Jacobian:
         tendons, tubes = len(self.robot.tendons), len(self.robot.tubes)
-        tension, rotation, translation = np.split(matrix, [tendons, tendons + tubes], axis=-1)
-        if self._pulled is None:
-            return Jacobian(tension, rotation, translation, np.zeros_like(tension))
-        displacement = tension @ self._pulled.tension_jacobian(self._prepared)
+        self._require_convergence()
+        outside, order = self._ordered(places)
+        matrix = np.zeros((1 + len(places), 6, 2 * (tendons + tubes)))
+        matrix[[0, *(1 + order)]] = actuator_rates(cast("Shape", self), outside)
+        moved = _turned(matrix, self._frames_at(places, axes))[which]
+        tension, displacement, rotation, translation = np.split(
+            moved, np.cumsum([tendons, tendons, tubes]), axis=-1
+        )
         return Jacobian(tension, rotation, translation, displacement)
 
     def _frames_at(self, places: Sequence[float] | np.ndarray, axes: Axes) -> np.ndarray | None:

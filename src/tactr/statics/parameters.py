@@ -15,7 +15,7 @@ import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
-from tactr.robot import Robot
+from tactr.robot import Robot, TensionProfile
 from tactr.statics.assemble import tables
 
 RELATIVE_STEP, LEAST_STEP = 1e-3, 1e-6
@@ -57,8 +57,10 @@ def actuator_column(robot: Robot, path: str) -> int | None:
     name, _, field = rest.rpartition(".")
     tendons, tubes = [t.name for t in robot.tendons], [t.name for t in robot.tubes]
     if group == "tendons" and field == "tension" and name in tendons:
-        value_of(robot, path)
-        return tendons.index(name)
+        column = tendons.index(name)
+        if not isinstance(robot.tendons[column].tension, TensionProfile):  # counts per unit of a factor on it
+            value_of(robot, path)
+        return column
     if group == "tubes" and field in ("rotation", "translation") and name in tubes:
         return len(tendons) + tubes.index(name) + (len(tubes) if field == "translation" else 0)
     return None

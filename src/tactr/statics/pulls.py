@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tactr import _core
-from tactr.statics._complementary import SINGULAR
 
 if TYPE_CHECKING:
     from tactr.robot import Robot
@@ -82,20 +81,6 @@ class Pulled:
     def slack(self, robot: Robot) -> tuple[str, ...]:
         """Names of the pulled tendons without tension."""
         return tuple(robot.tendons[j].name for j in self.pulls.index[self.tension == 0.0])
-
-    def tension_jacobian(self, prepared: _core.PreparedRobot) -> np.ndarray:
-        """d tension / d displacement of all m tendons, (m, m), N/m; 0 in rows and columns of slack ones.
-
-        By the implicit function theorem from the gaps of the taut tendons; where these do not tell the
-        tensions apart (tendons without compliance side by side), the least change of tension.
-        """
-        taut = self.tension > 0.0
-        m, places = len(self.solution.tension), self.pulls.index[taut]
-        flexibility, whole = self.pulls.flexibility(prepared, self.solution), np.zeros((m, m))
-        if flexibility is not None:
-            inverse = np.linalg.pinv(flexibility[np.ix_(taut, taut)], rcond=SINGULAR)
-            whole[np.ix_(places, places)] = inverse
-        return whole
 
 
 def is_stable(prepared: _core.PreparedRobot, pulls: Pulls, solution: _core.Solution) -> bool:

@@ -79,20 +79,14 @@ class Rates:
 
     def _tensions(self, shape: Shape, pulled: Pulled, found: np.ndarray, direct: np.ndarray) -> np.ndarray:
         """d tension/dp, (tendons, parameters)."""
-        pulls, solution = pulled.pulls, shape._solution
+        solution = shape._solution
         gap = self._references(shape) - direct[-self._tendons :]
         for k, (field, j) in self._motors.items():
             if field == "displacement":
                 gap[j, k] -= 1.0
             elif field == "compliance":
                 gap[j, k] += solution.tension[j] - self._robot.tendons[j].pretension
-        taut = pulls.index[pulled.tension > 0.0]
-        lengths = found[-self._tendons :, : self._tendons]
-        compliance = np.array([tendon.compliance for tendon in self._robot.tendons])
-        flexibility = (np.diag(compliance) - lengths)[np.ix_(taut, taut)]
-        rates = np.zeros_like(gap)
-        rates[taut] = -np.linalg.pinv(flexibility, rcond=SINGULAR) @ gap[taut]
-        return rates
+        return followed_tensions(self._robot, pulled, found[-self._tendons :], gap)
 
     def _references(self, shape: Shape) -> np.ndarray:
         """d(l_rest - compliance pretension)/dp, (tendons, parameters)."""
@@ -128,6 +122,44 @@ class Rates:
                     lengths[:, k] = found[6:, j]
             self._rest = solution, lengths
         return self._rest[1]
+
+
+def followed_tensions(robot: Robot, pulled: Pulled, lengths: np.ndarray, gap: np.ndarray) -> np.ndarray:
+    """d tension/dp, (tendons, parameters), from the gaps' rates at held tensions, gap (tendons, parameters).
+
+    lengths (tendons, tendons and more): derivatives of the tendons' lengths with respect to tensions first.
+    """
+    taut = pulled.pulls.index[pulled.tension > 0.0]
+    compliance = np.array([tendon.compliance for tendon in robot.tendons])
+    flexibility = (np.diag(compliance) - lengths[:, : len(compliance)])[np.ix_(taut, taut)]
+    rates = np.zeros_like(gap)
+    rates[taut] = -np.linalg.pinv(flexibility, rcond=SINGULAR) @ gap[taut]
+    return rates
+
+
+def actuator_rates(shape: Shape, s: np.ndarray) -> np.ndarray:
+    """(1 + k, 6, 2 tendons + 2 tubes): by tensions, displacements, rotations, translations, motors held.
+
+    0 for the tensions of tendons pulled by displacements, and the displacements of the others.
+    """
+    tendons = len(shape.robot.tendons)
+    whole = np.zeros((1 + len(s), 6, 2 * (tendons + len(shape.robot.tubes))))
+    if shape._pulled is None:
+        found = _core.sensitivities(shape._prepared, shape._solution, s, False, True, -1.0, [])
+        found = found.reshape(1 + len(s), 6, -1)
+        whole[..., :tendons], whole[..., 2 * tendons :] = found[..., :tendons], found[..., tendons:]
+        return whole
+    given = [tendon.displacement is not None for tendon in shape.robot.tendons]
+    tubes = [
+        f"tubes.{tube.name}.{kind}" for kind in ("rotation", "translation") for tube in shape.robot.tubes
+    ]
+    pulls = [
+        f"tendons.{tendon.name}.{'displacement' if pulled else 'tension'}"
+        for tendon, pulled in zip(shape.robot.tendons, given, strict=True)
+    ]
+    columns = [*(np.arange(tendons) + tendons * np.array(given)), *range(2 * tendons, whole.shape[-1])]
+    whole[..., columns] = Rates(shape.robot, pulls + tubes).poses(shape, s)
+    return whole
 
 
 def stands_alone(robot: Robot, path: str) -> bool:
