@@ -82,12 +82,12 @@ def knowledge(frees: Sequence[Free], jacobian: np.ndarray, noise: float, at_boun
     return Knowledge(
         np.sqrt(np.diag(covariance)),
         covariance,
-        tuple(_unseen(vectors[k], errors[k], names) for k in np.flatnonzero(unseen)[::-1]),
+        tuple(_unseen(vectors[k], float(errors[k]), names) for k in np.flatnonzero(unseen).tolist()[::-1]),
         good,
     )
 
 
 def _unseen(vector: np.ndarray, error: float, names: Sequence[str]) -> Unseen:
-    order = [k for k in np.argsort(-np.abs(vector), kind="stable") if abs(vector[k]) > SHARE]
+    order = [int(k) for k in np.argsort(-np.abs(vector), kind="stable") if abs(vector[k]) > SHARE]
     sign = np.sign(vector[order[0]])
-    return Unseen({names[k]: float(sign * vector[k]) for k in order}, float(error))
+    return Unseen({names[k]: float(sign * vector[k]) for k in order}, error)

@@ -8,7 +8,7 @@ material frame of the innermost tube at the point.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 import numpy as np
 
@@ -118,7 +118,7 @@ class Derivatives:
         places = np.array([]) if s is None else _places(s)
         outside, order = self._ordered(places)
         picked = np.zeros((1 + len(places), 6, len(parameters)))
-        picked[[0, *(1 + order)]] = Rates(self.robot, parameters).poses(self, outside)
+        picked[[0, *(1 + order)]] = Rates(self.robot, parameters).poses(cast("Shape", self), outside)
         turned = _turned(picked, self._frames_at(places, axes))
         if s is None:
             return turned[0]
