@@ -78,11 +78,12 @@ def knowledge(frees: Sequence[Free], jacobian: np.ndarray, noise: float, at_boun
     covariance[np.ix_(moving, moving)] = inner * np.outer(scales[moving], scales[moving])
     covariance[~good] = np.nan
     covariance[:, ~good] = np.nan
-    names = [frees[k].name for k in moving]
+    names = [frees[int(k)].name for k in moving]
+    vague = [int(k) for k in np.flatnonzero(unseen)][::-1]
     return Knowledge(
         np.sqrt(np.diag(covariance)),
         covariance,
-        tuple(_unseen(vectors[k], float(errors[k]), names) for k in np.flatnonzero(unseen).tolist()[::-1]),
+        tuple(_unseen(vectors[k], float(errors[k]), names) for k in vague),
         good,
     )
 
