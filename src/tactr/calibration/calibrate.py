@@ -54,7 +54,7 @@ def calibrate(
     """
     data = measurements if isinstance(measurements, Measurements) else Measurements.read(measurements)
     frame = Frame() if frame is None else frame
-    frees = expanded(robot, parameters, list(data.displacement))
+    frees = expanded(robot, parameters, list(data.displacement), frame)
     _check_options(noise, loss, starts)
     remarks = before(robot, frame, data, frees)
     labels = None if folds is None else fold_labels(data, folds)
@@ -104,22 +104,16 @@ def _starts(frees: Sequence[Free], count: int) -> list[np.ndarray]:
         return [origin]
     from scipy.stats import qmc
 
-    low = np.array([max(free.lower, free.start - 2 * free.scale) for free in frees])
-    high = np.array([min(free.upper, free.start + 2 * free.scale) for free in frees])
-    low = np.array(
-        [
-            f.lower if np.isfinite(f.lower) and np.isfinite(f.upper) else w
-            for f, w in zip(frees, low, strict=True)
-        ]
-    )
-    high = np.array(
-        [
-            f.upper if np.isfinite(f.lower) and np.isfinite(f.upper) else w
-            for f, w in zip(frees, high, strict=True)
-        ]
-    )
+    low, high = np.array([_span(free) for free in frees]).T
     shares = qmc.LatinHypercube(d=len(frees), rng=np.random.default_rng(0)).random(count - 1)
     return [origin, *(low + shares * (high - low))]
+
+
+def _span(free: Free) -> tuple[float, float]:
+    """Where a number may start: between its bounds, or two scales to each side."""
+    if np.isfinite(free.lower) and np.isfinite(free.upper):
+        return free.lower, free.upper
+    return max(free.lower, free.start - 2 * free.scale), min(free.upper, free.start + 2 * free.scale)
 
 
 def _fitted(

@@ -9,7 +9,7 @@ import numpy as np
 from tactr.calibration.frame import Frame
 from tactr.calibration.hold_out import distances
 from tactr.calibration.identify import Knowledge
-from tactr.calibration.measurements import Measurements, Remark
+from tactr.calibration.measurements import Measurements, Remark, seen
 from tactr.calibration.model import Model
 from tactr.calibration.parameters import Free
 from tactr.calibration.search import Found
@@ -25,10 +25,10 @@ MOST_TENSION, MOST_ROTATION = 1e3, 8.0 * np.pi
 
 def before(robot: Robot, frame: Frame, data: Measurements, frees: Sequence[Free]) -> list[Remark]:
     """Raises RobotError where the data cannot be of this robot, or are too few."""
-    seen = int(np.isfinite(data.points).sum())
+    count = int(np.isfinite(data.points).sum())
     known = sum(free.prior is not None for free in frees)
-    if seen + known < len(frees):
-        found = f"{len(frees)} free numbers, but only {seen} coordinates measured in {len(data)} rows"
+    if count + known < len(frees):
+        found = f"{len(frees)} free numbers, but only {count} coordinates measured in {len(data)} rows"
         raise RobotError("parameters", found, "more rows, fewer free parameters, or priors")
     reach = max(tube.tip for tube in robot.tubes)
     _check_points(data, frame, frees, reach)
@@ -69,7 +69,7 @@ def _check_points(data: Measurements, frame: Frame, frees: Sequence[Free], reach
 def after(model: Model, first: np.ndarray, found: Found, known: Knowledge, loss: str) -> list[Remark]:
     """first: points predicted at the start of the search."""
     data = model.measured
-    missing = ~np.isfinite(found.residual).all(axis=2).any(axis=1)
+    missing = ~seen(found.residual)
     remarks = [
         *_missing(data, missing),
         *_spread(data, first),

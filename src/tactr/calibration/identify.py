@@ -78,16 +78,17 @@ def knowledge(frees: Sequence[Free], jacobian: np.ndarray, noise: float, at_boun
     covariance[np.ix_(moving, moving)] = inner * np.outer(scales[moving], scales[moving])
     covariance[~good] = np.nan
     covariance[:, ~good] = np.nan
-    names = [frees[k].name for k in moving]
+    names = [frees[int(k)].name for k in moving]
+    vague = [int(k) for k in np.flatnonzero(unseen)][::-1]
     return Knowledge(
         np.sqrt(np.diag(covariance)),
         covariance,
-        tuple(_unseen(vectors[k], errors[k], names) for k in np.flatnonzero(unseen)[::-1]),
+        tuple(_unseen(vectors[k], float(errors[k]), names) for k in vague),
         good,
     )
 
 
 def _unseen(vector: np.ndarray, error: float, names: Sequence[str]) -> Unseen:
-    order = [k for k in np.argsort(-np.abs(vector), kind="stable") if abs(vector[k]) > SHARE]
+    order = [int(k) for k in np.argsort(-np.abs(vector), kind="stable") if abs(vector[k]) > SHARE]
     sign = np.sign(vector[order[0]])
-    return Unseen({names[k]: float(sign * vector[k]) for k in order}, float(error))
+    return Unseen({names[k]: float(sign * vector[k]) for k in order}, error)

@@ -56,8 +56,8 @@ class Measurements:
         if points.ndim != 3 or points.shape[1:] != (len(self.places), 3) or not len(points):
             expected = f"an array (rows, {len(self.places)}, 3) in m, at least one row"
             raise RobotError("points", f"an array {points.shape}", expected)
-        if not np.isfinite(points).all(axis=2).any(axis=1).all():
-            row = int(np.argmin(np.isfinite(points).all(axis=2).any(axis=1)))
+        if not seen(points).all():
+            row = int(np.argmin(seen(points)))
             raise RobotError(f"points[{row}]", "no point of the row was seen", "a row with a measured point")
         check.store(self, points=points, places=_places(self.places))
         for kind in ACTUATION:
@@ -105,6 +105,11 @@ class Measurements:
     def row_name(self, row: int) -> str:
         """How to speak of a row: by its line in the file where that is known."""
         return f"row {row}" if self.lines is None else f"line {self.lines[row]}"
+
+
+def seen(points: np.ndarray) -> np.ndarray:
+    """Whether any point of a row was seen, (n,), from (n, k, 3) with NaN for what was not."""
+    return np.any(np.all(np.isfinite(points), axis=2), axis=1)
 
 
 def _places(places: Sequence[float | None]) -> tuple[float | None, ...]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from tactr.calibration.frame import Frame, cross_matrix, rotation_rates
 from tactr.calibration.measurements import ACTUATION, Measurements
-from tactr.calibration.parameters import FRAME, ZERO, Free
+from tactr.calibration.parameters import FRAME, ZERO, Free, vector_of
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
 from tactr.statics.parameters import with_value
@@ -175,9 +175,7 @@ def _as_displacement(path: str) -> str:
 
 
 def _framed(frame: Frame, path: str, value: float) -> Frame:
-    name = (
-        "marker" if path.startswith("marker") else "rotation" if path.startswith("sensor.r") else "position"
-    )
+    name = vector_of(path)
     vector = list(getattr(frame, name))
     vector["xyz".index(path[-1])] = value
     return replace(frame, **{name: tuple(vector)})

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, fields, is_dataclass
 from typing import Any
 
+from tactr.calibration.frame import Frame
 from tactr.errors import RobotError
 from tactr.io.unit_table import KINDS, Kind
 from tactr.robot import Robot
@@ -108,9 +109,13 @@ class Free:
 
 
 def expanded(
-    robot: Robot, parameters: Sequence[str | Parameter], measured: Sequence[str]
+    robot: Robot,
+    parameters: Sequence[str | Parameter],
+    measured: Sequence[str],
+    frame: Frame | None = None,
 ) -> tuple[Free, ...]:
-    """Every free number. measured: tendons whose displacement was measured. Raises RobotError."""
+    """Every free number. measured: tendons whose displacement was measured; frame: where marker and sensor
+    start. Raises RobotError."""
     known = known_paths(robot, measured)
     frees: list[Free] = []
     for given in parameters:
@@ -119,7 +124,7 @@ def expanded(
             raise RobotError("parameters", f"{given!r}", "paths or Parameter objects", value=given)
         paths = _matching(robot, parameter.path, known)
         groups = [tuple(paths)] if parameter.common else [(path,) for path in paths]
-        frees += [_free(robot, parameter, group) for group in groups]
+        frees += [_free(robot, frame or Frame(), parameter, group) for group in groups]
     seen = [path for free in frees for path in free.paths]
     for path in seen:
         if seen.count(path) > 1:
@@ -168,10 +173,10 @@ def _walk(owner: Any, path: str, paths: list[str]) -> None:
                 _walk(getattr(owner, f.name), f"{path}.{f.name}", paths)
 
 
-def _free(robot: Robot, parameter: Parameter, paths: tuple[str, ...]) -> Free:
+def _free(robot: Robot, frame: Frame, parameter: Parameter, paths: Sequence[str]) -> Free:
     name = parameter.path if len(paths) > 1 else paths[0]
     kind, last = kind_of(paths[0]), paths[0].rpartition(".")[2]
-    values = [_value(robot, path) for path in paths]
+    values = [_value(robot, frame, path) for path in paths]
     start = parameter.start if parameter.start is not None else sum(values) / len(values)
     lower, upper = parameter.lower, parameter.upper
     if last in NEVER_NEGATIVE and paths[0] not in FRAME:
@@ -189,11 +194,20 @@ def _free(robot: Robot, parameter: Parameter, paths: tuple[str, ...]) -> Free:
         scale = max(abs(start), LEAST_SCALE.get(kind.name, 0.0)) or 1.0
         if parameter.prior is not None:
             scale = max(scale, parameter.prior[1])
-    return Free(name, paths, start, lower, upper, parameter.prior, scale, kind)
+    return Free(name, tuple(paths), start, lower, upper, parameter.prior, scale, kind)
 
 
-def _value(robot: Robot, path: str) -> float:
-    return 0.0 if path in FRAME or path.endswith(f".{ZERO}") else value_of(robot, path)
+def _value(robot: Robot, frame: Frame, path: str) -> float:
+    if path in FRAME:
+        return getattr(frame, vector_of(path))["xyz".index(path[-1])]
+    return 0.0 if path.endswith(f".{ZERO}") else value_of(robot, path)
+
+
+def vector_of(path: str) -> str:
+    """The field of a Frame that a path of it is in."""
+    return (
+        "marker" if path.startswith("marker") else "rotation" if path.startswith("sensor.r") else "position"
+    )
 
 
 def kind_of(path: str) -> Kind:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tactr.calibration.measurements import ACTUATION, Measurements, Remark
+from tactr.calibration.measurements import ACTUATION, Measurements, Remark, seen
 from tactr.errors import FileError
 from tactr.io.document import ProblemsFound, printable, read_text
 from tactr.io.file_error import file_error
@@ -168,7 +168,7 @@ def _built(path: Path, columns: list[Column], rows: list[tuple[int, list[str]]])
     actuation = {
         k: {q[len(k) + 1 :]: v for q, v in numbers.items() if q.startswith(f"{k}.")} for k in ACTUATION
     }
-    whole = np.isfinite(points).all(axis=2).any(axis=1)
+    whole = seen(points)
     for kinds in actuation.values():
         for values in kinds.values():
             whole &= np.isfinite(values)

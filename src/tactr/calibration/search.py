@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
@@ -115,8 +115,9 @@ class _Least:
 
         inside = np.clip(values / self._scales, self._lower, self._upper)
         return least_squares(
-            fun, inside, jac, bounds=(self._lower, self._upper), loss=self._loss, f_scale=TUNING,
-            xtol=1e-10, ftol=1e-10, gtol=1e-12, max_nfev=STEPS,
+            fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._loss,
+            f_scale=TUNING,
+            xtol=1e-8, ftol=1e-9, gtol=1e-12, max_nfev=STEPS,
         )  # fmt: skip
 
     def _from_priors(self, values: np.ndarray) -> np.ndarray:
@@ -149,7 +150,7 @@ class _Least:
         return float(slope**2 / np.mean(psi[0.0] ** 2))
 
 
-def _influence(loss: Loss, z: np.ndarray) -> np.ndarray:
+def _influence(loss: str, z: np.ndarray) -> np.ndarray:
     y = z / TUNING
     if loss == "huber":
         return TUNING * np.clip(y, -1.0, 1.0)

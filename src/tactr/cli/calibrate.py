@@ -92,7 +92,7 @@ def _parameters(request: Request, starts: dict[str, float]) -> list[Parameter]:
 def _set(robot: Robot, words: Sequence[str]) -> tuple[Robot, Frame, dict[str, float]]:
     """The robot and the frame with the numbers that were set, and where zeros start."""
     from tactr.calibration import Frame
-    from tactr.calibration.parameters import FRAME, ZERO, known_paths
+    from tactr.calibration.parameters import FRAME, ZERO, known_paths, vector_of
     from tactr.statics.parameters import with_value
 
     frame: dict[str, list[float]] = {name: [0.0] * 3 for name in ("marker", "position", "rotation")}
@@ -109,9 +109,7 @@ def _set(robot: Robot, words: Sequence[str]) -> tuple[Robot, Frame, dict[str, fl
         for each in fitting:
             value = _value("set", each, text)
             if each in FRAME:
-                vector = "marker" if each[0] == "m" else "rotation" if each[7] == "r" else "position"
-                frame[vector]["xyz".index(each[-1])] = value
-                starts[each] = value
+                frame[vector_of(each)]["xyz".index(each[-1])] = value
             elif each.endswith(f".{ZERO}"):
                 starts[each] = value
             else:

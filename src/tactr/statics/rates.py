@@ -10,7 +10,7 @@ by the implicit function theorem; slack tendons keep their zero tension.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,24 +37,13 @@ class Rates:
     def __init__(self, robot: Robot, parameters: Sequence[str | tuple[str, ...]]) -> None:
         self.parameters = tuple((p,) if isinstance(p, str) else p for p in parameters)
         self._robot = robot
-        self._bare = robot.replace(loads=()) if robot.loads else robot
         self._tendons = len(robot.tendons)
         self._motors = {
             k: motor for k, paths in enumerate(self.parameters) if (motor := _motor(robot, paths[0]))
         }
-        self._columns: dict[int, int] = {}
-        self._rates: list[_core.PreparedRobot] = []
-        self._bare_rates: list[_core.PreparedRobot] = []
-        actuators = self._tendons + 2 * len(robot.tubes)
-        for k, paths in enumerate(self.parameters):
-            if k in self._motors:
-                continue
-            held = actuator_column(robot, paths[0])
-            self._columns[k] = actuators + len(self._rates) if held is None else held
-            if held is None:
-                self._rates.append(rates_of(robot, *paths))
-                bare = [path for path in paths if not path.startswith("loads.")] if robot.loads else []
-                self._bare_rates.append(rates_of(self._bare, *bare) if bare else self._rates[-1])
+        tables = {k: paths for k, paths in enumerate(self.parameters) if k not in self._motors}
+        self._columns, self._rates = _columns(robot, tables)
+        self._bare: tuple[dict[int, int], list[_core.PreparedRobot]] | None = None
         self._rest: tuple[_core.Solution, np.ndarray] | None = None
 
     def poses(self, shape: Shape, s: np.ndarray) -> np.ndarray:
@@ -64,18 +53,12 @@ class Rates:
             shape._prepared, shape._solution, s, pulled is not None, True, -1.0, self._rates
         )
         rows = 6 * (1 + len(s))
-        direct = self._picked(found)
+        direct = self._picked(found, self._columns)  # at held tensions
         if pulled is not None:
             direct = direct[:rows] + found[:rows, : self._tendons] @ self._tensions(
                 shape, pulled, found, direct
             )
         return direct.reshape(1 + len(s), 6, -1)
-
-    def _picked(self, found: np.ndarray) -> np.ndarray:
-        """At held tensions; the motors' numbers then change nothing."""
-        picked = np.zeros((len(found), len(self.parameters)))
-        picked[:, list(self._columns)] = found[:, list(self._columns.values())]
-        return picked
 
     def _tensions(self, shape: Shape, pulled: Pulled, found: np.ndarray, direct: np.ndarray) -> np.ndarray:
         """d tension/dp, (tendons, parameters)."""
@@ -109,19 +92,47 @@ class Rates:
         solution = rest.solution
         assert solution is not None
         if self._rest is None or self._rest[0] is not solution:
-            found = _core.sensitivities(
-                rest._core, solution, np.array([]), True, True, -1.0, self._bare_rates
-            )
-            lengths = self._picked(found)[6:]
-            for k, paths in enumerate(self.parameters):
-                held = k in self._columns and self._columns[k] < self._tendons
-                if held or all(path.startswith("loads.") for path in paths):
-                    lengths[:, k] = 0.0  # there are no loads in it, and no tensions but pretensions
+            columns, rates = self._without_loads()
+            found = _core.sensitivities(rest._core, solution, np.array([]), True, True, -1.0, rates)
+            lengths = self._picked(found, columns)[6:]
             for k, (field, j) in self._motors.items():
                 if field == "pretension":
                     lengths[:, k] = found[6:, j]
             self._rest = solution, lengths
         return self._rest[1]
+
+    def _without_loads(self) -> tuple[dict[int, int], list[_core.PreparedRobot]]:
+        """What of the parameters the rest state knows: no loads, no tensions but pretensions."""
+        if self._bare is None:
+            bare = self._robot.replace(loads=())
+            tables = {
+                k: [path for path in paths if not path.startswith("loads.")]
+                for k, paths in enumerate(self.parameters)
+                if self._columns.get(k, 0) >= self._tendons
+            }
+            self._bare = _columns(bare, {k: paths for k, paths in tables.items() if paths})
+        return self._bare
+
+    def _picked(self, found: np.ndarray, columns: dict[int, int]) -> np.ndarray:
+        """Columns by parameter, 0 where there is none."""
+        picked = np.zeros((len(found), len(self.parameters)))
+        picked[:, list(columns)] = found[:, list(columns.values())]
+        return picked
+
+
+def _columns(
+    robot: Robot, parameters: Mapping[int, Sequence[str]]
+) -> tuple[dict[int, int], list[_core.PreparedRobot]]:
+    """The kernel's column for each parameter, and the rates of the tables behind the actuators' columns."""
+    columns: dict[int, int] = {}
+    rates: list[_core.PreparedRobot] = []
+    actuators = len(robot.tendons) + 2 * len(robot.tubes)
+    for k, paths in parameters.items():
+        held = actuator_column(robot, paths[0])
+        columns[k] = actuators + len(rates) if held is None else held
+        if held is None:
+            rates.append(rates_of(robot, *paths))
+    return columns, rates
 
 
 def followed_tensions(robot: Robot, pulled: Pulled, lengths: np.ndarray, gap: np.ndarray) -> np.ndarray:
