@@ -25,7 +25,7 @@ bool entry_hamiltonian(M& march, const Robot& robot, const Layout<double>& layou
     }
     if (!march.solver.solve(inside, 0.0, z, march.packing, e)) return false;
     SectionEnd end;
-    read_end(march, robot, inside, z, end);
+    read_end(march, inside, z, end);
     for (int i = 0; i < robot.tube_count; ++i) entry[i] = 0.0;
     for (int a = 0; a < inside.active_count; ++a) entry[inside.active[a]] += end.power[a] - end.energy[a];
     for (int h = inside.hosted.begin; h < inside.hosted.end; ++h)

@@ -48,7 +48,7 @@ class EnergyReader : public EndsReader {
             const int place = h - section.hosted.begin;
             pulled += weight * march.solver.tendons[place].tension / march.solver.tendon_tangents[place].inverse;
             carried[robot_.tendons[layout_.hosted[h].tendon].tube] -=
-                weight * route_slope(march, section, layout_.hosted[h], place, s);
+                weight * route_slope(march, layout_.hosted[h], place, s);
         }
         for (int d = section.distributed_loads.begin; d < section.distributed_loads.end; ++d)
             take_distributed_load(march, section, layout_.distributed_loads[d], s, weight);
@@ -70,7 +70,7 @@ class EnergyReader : public EndsReader {
 
     /// d(tension |q|)/d(sigma) at fixed strains: t.(u x r' + r'') times tension, and tension' |q|.
     template <class M>
-    double route_slope(const M& march, const Section<double>& section, const Hosted& hosted, int place, double s) const {
+    double route_slope(const M& march, const Hosted& hosted, int place, double s) const {
         Dual<1> sigma(s - actuation_.translation[robot_.tendons[hosted.tendon].tube]), r[2], dr[2];
         sigma.d[0] = 1.0;
         evaluate_routing(robot_.routing[hosted.routing], sigma, r, dr);

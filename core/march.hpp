@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "dense.hpp"
-#include "dp8_tableau.hpp"
 #include "dual.hpp"
+#include "host_changes.hpp"
 #include "robot.hpp"
 #include "rotations.hpp"
 #include "section_solver.hpp"
 #include "sections.hpp"
+#include "stage_sums.hpp"
 #include "states.hpp"
 
 namespace tactr {
@@ -35,23 +35,11 @@ struct SeesStages : std::false_type {};
 template <class Observer>
 struct SeesStages<Observer, std::void_t<typename Observer::Stages>> : std::true_type {};
 
-/// The nonzero entries of one row of the Runge-Kutta tableau.
-struct SparseRow {
-    double weight[dp8::DENSE_STAGES];
-    int stage[dp8::DENSE_STAGES];
-    int count = 0;
-    constexpr SparseRow(const double* row, int length) : weight{}, stage{} {
-        for (int j = 0; j < length; ++j)
-            if (row[j] != 0.0) {
-                weight[count] = row[j];
-                stage[count++] = j;
-            }
-    }
-};
-
 template <class T, class P, class C = double>
 class March {
   public:
+    using State = T;
+    using Parameter = P;
     static constexpr int LANES = LaneCount<T>::value;
     static constexpr int MAX_STEPS = 512;  // per section
 
@@ -123,6 +111,13 @@ class March {
         return true;
     }
 
+    /// The section's strains at s, from the full states.
+    bool solve_at(const Section<P>& section, const P& s) {
+        Strains e = last_;
+        pack(section);
+        return solver.solve(section, s, z, packing, e);
+    }
+
   private:
     Strains last_;  // strains of the nearest point solved so far
 
@@ -159,12 +154,13 @@ class March {
             y[PSI + i] = free_end.psi[i];
             y[N3 + i] = y[M3 + i] = T(0.0);
         }
-        if (beyond && !change_hosts(section, *beyond)) return false;
+        HostChanges<March> changes(*this);
+        if (beyond && !changes.hand_over(section, *beyond)) return false;
         last_ = nearest;
         apply_point_loads(section);
         if constexpr (LANES > 0)
             if (k_section == probe_section) apply_probe(section);
-        return take_terminations(section, beyond);
+        return changes.take_terminations(section, beyond);
     }
 
     Strains nearest_strains(const Section<P>& section, const Section<P>* beyond) const {
@@ -176,162 +172,6 @@ class March {
         }
         if (section.guided) e.kx = e.ky = e.wx = e.wy = 0.0;
         return e;
-    }
-
-    bool solve_at(const Section<P>& section, const P& s) {
-        Strains e = last_;
-        pack(section);
-        return solver.solve(section, s, z, packing, e);
-    }
-
-    /// lambda t_3 and lambda (r x t)_3 of a tendon in the section solved last.
-    void axial_part(const TendonState<P>& tendon, T& force, T& moment) const {
-        T n[3] = {T(0.0), T(0.0), T(0.0)}, m[3] = {T(0.0), T(0.0), T(0.0)}, inverse, t[3], r[2];
-        add_tendon(tendon, solver.cosine[tendon.slot], solver.sine[tendon.slot], solver.strains, n, m, inverse, t, r);
-        force = n[2];
-        moment = m[2];
-    }
-
-    void move_axial(int from, int to, const T& force, const T& moment) {
-        y[N3 + from] -= force;
-        y[M3 + from] -= moment;
-        y[N3 + to] += force;
-        y[M3 + to] += moment;
-    }
-
-    /// Theory, "Transitions": where a tendon's host changes its axial part moves to the new host.
-    bool change_hosts(const Section<P>& section, const Section<P>& beyond) {
-        bool solved = false;
-        for (int h = beyond.hosted.begin; h < beyond.hosted.end; ++h) {
-            const int to = host_of(section, layout.hosted[h].tendon);
-            const int from = beyond.active[layout.hosted[h].slot];
-            if (to < 0 || to == from) continue;
-            if (!solved && !solve_at(beyond, beyond.proximal)) return false;
-            solved = true;
-            T force, moment;
-            axial_part(solver.tendons[h - beyond.hosted.begin], force, moment);
-            move_axial(from, to, force, moment);
-        }
-        return true;
-    }
-
-    /// The tube that hosts a tendon in a section, -1 where the tendon does not run.
-    int host_of(const Section<P>& section, int tendon) const {
-        for (int h = section.hosted.begin; h < section.hosted.end; ++h)
-            if (layout.hosted[h].tendon == tendon) return section.active[layout.hosted[h].slot];
-        return -1;
-    }
-
-    /// What tendons that end here on their own tube, led up to here by another's disks, hand over between the two.
-    struct Transfer {
-        int own, host;
-        T force, moment;
-    };
-
-    /// Where tendons end, their own tube takes the pull and their host had carried it. The pull depends on the strains
-    /// behind the end, which depend on the pull: Newton on the transfers of all tubes together.
-    bool take_terminations(const Section<P>& section, const Section<P>* beyond) {
-        Transfer transfer[MAX_TUBES];
-        const int pairs = list_transfers(section, beyond, transfer);
-        if (pairs == 0) return true;
-        constexpr int N = 2 * MAX_TUBES;
-        double inverse[N][N];
-        int settled = 0;
-        for (int iteration = 0; iteration < 30 && settled < 3; ++iteration) {
-            T gap[N];
-            double worst;
-            if (!transfer_gaps(section, beyond, transfer, pairs, gap, worst)) return false;
-            if (worst <= SECTION_TOLERANCE) {
-                // two more rounds carry the derivatives along
-                if (++settled == 3) solver.worst_residual = larger(solver.worst_residual, worst);
-            } else if (!invert_transfer_slopes(section, beyond, transfer, pairs, gap, inverse)) {
-                return false;
-            }
-            if (iteration == 0 && settled == 1 && !invert_transfer_slopes(section, beyond, transfer, pairs, gap, inverse))
-                return false;
-            for (int i = 0; i < pairs; ++i)
-                for (int j = 0; j < 2 * pairs; ++j) {
-                    transfer[i].force += gap[j] * inverse[2 * i][j];
-                    transfer[i].moment += gap[j] * inverse[2 * i + 1][j];
-                }
-        }
-        for (int i = 0; i < pairs; ++i) move_axial(transfer[i].own, transfer[i].host, transfer[i].force, transfer[i].moment);
-        return settled == 3;
-    }
-
-    bool ends_on_another(const Section<P>& section, const Section<P>* beyond, const Hosted& hosted) const {
-        return section.active[hosted.slot] != robot.tendons[hosted.tendon].tube &&
-               !(beyond && host_of(*beyond, hosted.tendon) >= 0);
-    }
-
-    int list_transfers(const Section<P>& section, const Section<P>* beyond, Transfer* transfer) const {
-        int pairs = 0;
-        for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
-            const Hosted& hosted = layout.hosted[h];
-            if (!ends_on_another(section, beyond, hosted)) continue;
-            const int own = robot.tendons[hosted.tendon].tube;
-            int i = 0;
-            while (i < pairs && transfer[i].own != own) ++i;
-            if (i == pairs) transfer[pairs++] = {own, section.active[hosted.slot], T(0.0), T(0.0)};
-        }
-        return pairs;
-    }
-
-    /// How far the tendons' axial parts, at the strains that the transfers lead to, are from the transfers.
-    bool transfer_gaps(const Section<P>& section, const Section<P>* beyond, const Transfer* transfer, int pairs, T* gap,
-                       double& worst) {
-        for (int i = 0; i < pairs; ++i) move_axial(transfer[i].own, transfer[i].host, transfer[i].force, transfer[i].moment);
-        const bool found = solve_at(section, section.distal);
-        for (int i = 0; i < pairs; ++i) move_axial(transfer[i].host, transfer[i].own, transfer[i].force, transfer[i].moment);
-        if (!found) return false;
-        for (int i = 0; i < pairs; ++i) {
-            gap[2 * i] = -transfer[i].force;
-            gap[2 * i + 1] = -transfer[i].moment;
-        }
-        double forces = solver.force_scale, moments = solver.moment_scale;
-        for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
-            const Hosted& hosted = layout.hosted[h];
-            if (!ends_on_another(section, beyond, hosted)) continue;
-            int i = 0;
-            while (transfer[i].own != robot.tendons[hosted.tendon].tube) ++i;
-            T force, moment;
-            axial_part(solver.tendons[h - section.hosted.begin], force, moment);
-            gap[2 * i] += force;
-            gap[2 * i + 1] += moment;
-            forces += std::fabs(value(force));
-            moments += std::fabs(value(moment));
-        }
-        worst = 0.0;
-        for (int i = 0; i < pairs; ++i)
-            worst = larger(worst, larger(std::fabs(value(gap[2 * i])) / forces, std::fabs(value(gap[2 * i + 1])) / moments));
-        return std::isfinite(worst);
-    }
-
-    /// inverse of -d(gap)/d(transfer), by differences.
-    template <int N>
-    bool invert_transfer_slopes(const Section<P>& section, const Section<P>* beyond, const Transfer* transfer, int pairs,
-                                const T* gap, double (&inverse)[N][N]) {
-        double slope[N][N];
-        for (int j = 0; j < 2 * pairs; ++j) {
-            Transfer moved[MAX_TUBES];
-            for (int i = 0; i < pairs; ++i) moved[i] = transfer[i];
-            const double h = 1e-5 * (j % 2 == 0 ? solver.force_scale : solver.moment_scale);
-            (j % 2 == 0 ? moved[j / 2].force : moved[j / 2].moment) += h;
-            T ahead[N];
-            double worst;
-            if (!transfer_gaps(section, beyond, moved, pairs, ahead, worst)) return false;
-            for (int i = 0; i < 2 * pairs; ++i) slope[i][j] = (value(gap[i]) - value(ahead[i])) / h;
-        }
-        for (int j = 0; j < 2 * pairs; ++j) {
-            double A[N][N], column[N];
-            for (int i = 0; i < 2 * pairs; ++i) {
-                column[i] = i == j;
-                for (int c = 0; c < 2 * pairs; ++c) A[i][c] = slope[i][c];
-            }
-            if (solve_dense(2 * pairs, A, column) == 0.0) return false;
-            for (int i = 0; i < 2 * pairs; ++i) inverse[i][j] = column[i];
-        }
-        return true;
     }
 
     /// A load given in world or body axes, in R_b; q: R_b, psi: angle of the loaded tube.
@@ -472,7 +312,7 @@ class March {
     bool run_stages(const Section<P>& section, int k_section, const P& s, const P& h, const T* before, Mesh& mesh,
                     size_t first, bool warm, Observer& observer) {
         for (int i = 0; i < dp8::STAGES; ++i) {
-            to_stage(i, h, before);
+            StageSums<T, P>::at(i, h, before, k, packing.fed_back, z);
             Strains& e = mesh.strains[first + i];
             if (!warm) {
                 copy_strains(last_, section.active_count, e);
@@ -491,51 +331,8 @@ class March {
         return true;
     }
 
-    /// z at stage i (the step's end: i = STAGES) from the rates at the stages before.
-    void to_stage(int i, const P& h, const T* before) {
-        switch (i) {
-            case 1: return add_rates<1>(h, before);
-            case 2: return add_rates<2>(h, before);
-            case 3: return add_rates<3>(h, before);
-            case 4: return add_rates<4>(h, before);
-            case 5: return add_rates<5>(h, before);
-            case 6: return add_rates<6>(h, before);
-            case 7: return add_rates<7>(h, before);
-            case 8: return add_rates<8>(h, before);
-            case 9: return add_rates<9>(h, before);
-            case 10: return add_rates<10>(h, before);
-            case 11: return add_rates<11>(h, before);
-            case dp8::STAGES: return add_rates<dp8::STAGES>(h, before);
-            default: return;
-        }
-    }
-
-    /// z = before + h * sum of weight * k, unrolled over the nonzero weights.
-    template <int I>
-    void add_rates(const P& h, const T* before) {
-        static constexpr SparseRow ROW(I == dp8::STAGES ? dp8::B : dp8::A[I], I);
-        const int count = I < dp8::STAGES ? packing.fed_back : packing.count;
-        add_rates_of<ROW>(h, before, count, std::make_integer_sequence<int, ROW.count>());
-    }
-
-    template <const SparseRow& ROW, int... J>
-    void add_rates_of(const P& h, const T* before, int count, std::integer_sequence<int, J...>) {
-        const double length = value(h);
-        const int width = count * (LANES + 1);
-        const double* from = reinterpret_cast<const double*>(before);
-        double* to = reinterpret_cast<double*>(z);
-        const double* rates = reinterpret_cast<const double*>(k);
-        constexpr int STRIDE = STATES * (LANES + 1);
-        for (int n = 0; n < width; ++n) to[n] = from[n] + length * ((rates[ROW.stage[J] * STRIDE + n] * ROW.weight[J]) + ...);
-        if constexpr (!std::is_same_v<P, double>)
-            for (int n = 0; n < count; ++n) {
-                const double rate = ((k[ROW.stage[J]][n].v * ROW.weight[J]) + ...);
-                for (int l = 0; l < LANES; ++l) z[n].d[l] += rate * h.d[l];
-            }
-    }
-
     void advance(const P& h, const T* before, double& error) {
-        to_stage(dp8::STAGES, h, before);
+        StageSums<T, P>::at(dp8::STAGES, h, before, k, packing.count, z);
         if (error_weight) add_error(value(h), error);
         if (packing.frame >= 0 && packing.path >= 0) normalise(&z[packing.frame]);
     }

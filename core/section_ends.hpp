@@ -42,7 +42,7 @@ double energy_density(const M& march, int a) {
 
 /// From the section solved last; state: its packed states.
 template <class M>
-void read_end(const M& march, const Robot& robot, const Section<double>& section, const double* state, SectionEnd& out) {
+void read_end(const M& march, const Section<double>& section, const double* state, SectionEnd& out) {
     const Strains& e = march.solver.strains;
     for (int c = 0; c < 4; ++c) out.quaternion[c] = state[march.packing.frame + c];
     for (int a = 0; a < section.active_count; ++a) {
@@ -76,7 +76,7 @@ class EndsReader {
 
     template <class M>
     void stage(M& march, const Section<double>& section, int k, double s, double) {
-        if (s == section.distal) read_end(march, robot_, section, march.z, distal[k]);
+        if (s == section.distal) read_end(march, section, march.z, distal[k]);
     }
 
     template <class M>
@@ -85,7 +85,7 @@ class EndsReader {
         if (std::fabs(s + h - section.proximal) > 1e-9 * (section.distal - section.proximal)) return;
         Strains e = march.solver.strains;
         if (march.solver.solve(section, section.proximal, march.z, march.packing, e))
-            read_end(march, robot_, section, march.z, proximal[k]);
+            read_end(march, section, march.z, proximal[k]);
     }
 
   protected:
