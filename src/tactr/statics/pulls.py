@@ -41,10 +41,18 @@ class Pulls:
             - self.displacement
         )
 
-    def missed(self, solution: _core.Solution) -> np.ndarray:
-        """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one."""
-        gap = self.gap(solution)
+    def missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> np.ndarray:
+        """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one. shift: added
+        to the gaps."""
+        gap = self.gap(solution) + shift
         return np.where(solution.tension[self.index] > 0.0, np.abs(gap), np.maximum(-gap, 0.0))
+
+    def energy(self, prepared: _core.PreparedRobot, solution: _core.Solution) -> float:
+        """Potential energy with the motors held, J: these do no work, the springs of the tendons are
+        stretched; without what does not change."""
+        tension, length = solution.tension[self.index], solution.tendon_length[self.index]
+        springs = 0.5 * float(self.compliance @ tension**2)
+        return _core.potential_energy(prepared, solution) - float(tension @ length) + springs
 
     def flexibility(self, prepared: _core.PreparedRobot, solution: _core.Solution) -> np.ndarray | None:
         """d gap / d tension, (n, n), m/N; None at a fold, where lengths jump."""
@@ -59,7 +67,8 @@ class Pulls:
 class Pulled:
     """What a solve under displacements came to. missed (n,) m; solves: at held tensions; marches: in all of
     them. stable: whether the shape is with the motors held, None: not looked at. rested: whether there is a
-    rest state to count from; solution is what was found for it where there is none."""
+    rest state to count from; solution is what was found for it where there is none. given_up: not all was tried
+    that might have led on, for it would have taken too long."""
 
     pulls: Pulls
     solution: _core.Solution
@@ -68,6 +77,7 @@ class Pulled:
     marches: int
     stable: bool | None = None
     rested: bool = True
+    given_up: bool = False
 
     @property
     def met(self) -> bool:
