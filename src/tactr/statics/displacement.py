@@ -62,7 +62,8 @@ class DisplacementSolver:
             self._try_ways(first)
         except GivenUp:
             given_up = True
-        stable = self._is_stable(self._best) if self._best.status == 0 else None
+        met = self._rank(self._best)[0] < 2
+        stable = self._is_stable(self._best) if met else None
         return self._result(self._best, stable, given_up=given_up)
 
     def _try_ways(self, start: _core.Solution) -> None:

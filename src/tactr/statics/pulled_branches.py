@@ -24,21 +24,22 @@ class PulledBranches:
         self._samples = samples
         self._found: list[Pulled] = []
 
-    def found(self, first: _core.Solution) -> list[Pulled]:
-        """Stable ones first, then by energy. first: a shape whose tensions are near, perhaps one of them."""
+    def found(self, first: _core.Solution, *, until_stable: bool = False) -> list[Pulled]:
+        """Stable ones first, then by energy. first: a shape whose tensions are near, perhaps one of them.
+        until_stable: only until one of the searches has found a stable one."""
         newton = JointNewton(self._held, self._pulls)
-        self._lead(newton, first, first.tension[self._pulls.index])
+        self._lead(newton, first)
         for share in SHARES:
+            if until_stable and any(pulled.stable for pulled in self._found):
+                break
             whole = self._tension.copy()
             whole[self._pulls.index] = share * first.tension[self._pulls.index]
             for branch in self._held.branches(whole, self._samples):
-                self._lead(newton, branch, whole[self._pulls.index])
+                self._lead(newton, branch)
         return sorted(self._found, key=self._order)
 
-    def _lead(self, newton: JointNewton, branch: _core.Solution, start: np.ndarray) -> None:
-        whole = self._tension.copy()
-        whole[self._pulls.index] = start
-        solution = newton.find(branch, whole)
+    def _lead(self, newton: JointNewton, branch: _core.Solution) -> None:
+        solution = newton.lead(branch)
         if solution is not None and not any(self._same(solution, other.solution) for other in self._found):
             stable = is_stable(self._held.prepared, self._pulls, solution)
             missed = self._pulls.missed(solution)

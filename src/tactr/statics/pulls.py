@@ -111,11 +111,16 @@ class Pulled:
 def is_stable(prepared: _core.PreparedRobot, pulls: Pulls, solution: _core.Solution) -> bool:
     """Whether a shape is stable with the motors held: as many directions of falling energy at held tensions
     as negative flexibilities of the taut tendons, each of which a held motor takes away (inertia of the
-    bordered second variation, Haynsworth 1968)."""
-    falling = len(_core.stability(prepared, solution, 0)[4])
-    flexibility = pulls.flexibility(prepared, solution) if falling > 0 else None
+    bordered second variation, Haynsworth 1968). Not stable where that cannot be told: tubes all but crushed."""
+    try:
+        if _core.stability(prepared, solution, 0)[0]:
+            return True
+        falling = len(_core.stability(prepared, solution, 1)[4])  # without samples they are not located
+    except RuntimeError:
+        return False
+    flexibility = pulls.flexibility(prepared, solution)
     if flexibility is None:
-        return falling == 0
+        return False
     taut = solution.tension[pulls.index] > 0.0
     part = flexibility[np.ix_(taut, taut)]
     return int((np.linalg.eigvalsh(0.5 * (part + part.T)) < 0.0).sum()) == falling

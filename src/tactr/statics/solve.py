@@ -179,7 +179,7 @@ class Prepared:
 
     def _found(self, actuated: _Actuated, samples: int, near: Shape | None = None) -> list[Shape]:
         """All equilibria that a search finds; samples 0: as many as fit the number of unknowns. near: a shape
-        from whose tensions those under displacements are looked for."""
+        from whose tensions those under displacements are looked for, until a stable one is found."""
         start = perf_counter()
         if actuated.displacement is not None:
             first = self._solved(actuated, None) if near is None else near
@@ -189,7 +189,7 @@ class Prepared:
             if isinstance(pulls, Pulled) or not first.converged:
                 return []
             search = PulledBranches(self._held(actuated), pulls, actuated.arrays[0], samples)
-            some = search.found(first._solution)
+            some = search.found(first._solution, until_stable=near is not None)
             elapsed = perf_counter() - start
             return [self._shape(actuated, pulled.solution, elapsed, pulled) for pulled in some]
         found = _core.branches(self._core, *actuated.arrays, self.tolerance, self.residual_tolerance, samples)
