@@ -5,14 +5,16 @@
 
 Solves the robots of wide_robots.py with seeds seed, seed + 1, ... from cold and writes a line to the log for
 every one as it is done; seeds that the log has are not solved again, so that a run may be interrupted, and
-continued with other seeds. Prints the share that converges, the share that is stable, every failure by status,
-times, and every success that is none: over a tolerance of its own, or moved by more than the tolerance (but not
-onto another branch) by a solve from it with a tolerance of 1e-9 m, or with displacements that are not those of
-another solve at its tensions. Tendons' lengths are integrals on steps chosen for the tip: how far finer steps
-move displacements is printed, too. Exit code 1 when less than 99.9 % converge or a success is none.
+continued with other seeds. Prints the share that converges, the share that is stable, every failure by
+status, times, and every success that is none: over a tolerance of its own, or moved by more than the
+tolerance (but not onto another branch) by a solve from it with a tolerance of 1e-9 m, or with displacements
+that are not those of another solve at its tensions. Tendons' lengths are integrals on steps chosen for the
+tip: how far finer steps move displacements is printed, too. Exit code 1 when less than 99.9 % converge or a
+success is none.
 
---paths: follows random robots of the set along random paths instead: rotations, insertions and displacements or
-tensions change together, straight from corner to corner, 50 points each. Exit code 1 unless all points converge.
+--paths: follows random robots of the set along random paths instead: rotations, insertions and displacements
+or tensions change together, straight from corner to corner, 50 points each. Exit code 1 unless all points
+converge.
 """
 
 from __future__ import annotations
@@ -89,7 +91,8 @@ def outcome_of(seed: int) -> Outcome:
 
 
 def checked(robot: Robot, shape: Shape) -> tuple[float, float, str]:
-    """How far a fine solve at the shape's tensions moves its tip and its displacements, m, and what is wrong."""
+    """How far a fine solve at the shape's tensions moves its tip and its displacements, m, and what is
+    wrong."""
     if shape.residual > shape.residual_tolerance or shape.discretisation_error > TOLERANCE:
         return 0.0, 0.0, "over its tolerance"
     if shape.displacement_error > 0.1 * TOLERANCE:

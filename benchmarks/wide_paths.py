@@ -1,9 +1,10 @@
 """Random paths of robots of the wider set: rotations, insertions, tensions or displacements change together.
 
 The first corner is the robot as it is. At every other one each tube's rotation is moved by up to 60 degrees
-from where it was before, its distal end by up to 30 % of the way to its whole length or to 15 % of it, and the
-tendons' tensions are those of the robot times 0 to 1. Robots pulled by displacements have their tendons tied
-where the tubes stand in the beginning (``tactr.rest_lengths``), and displacements -1 to 1 times their own.
+from where it was before, its distal end by up to 30 % of the way to its whole length or to 15 % of it, and
+the tendons' tensions are those of the robot times 0 to 1. Robots pulled by displacements have their tendons
+tied where the tubes stand in the beginning (``tactr.rest_lengths``), and displacements -1 to 1 times their
+own.
 """
 
 from __future__ import annotations

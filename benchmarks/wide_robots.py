@@ -7,9 +7,10 @@ length        distal ends innermost longest for half of the robots, else in any 
               inside outer ones.
 translation   three in four robots have proximal ends 0 to 200 mm behind the guide's exit, each its own.
 loads         half of the robots: a force at the tip, of a size uniform from 0 to 1 N, in any direction, in
-              world axes (3 in 4) or body axes. Nothing of the robot is looked at: on the most slender ones 1 N
-              is a few hundred times the load at which they buckle. 30 %: gravity in any direction.
-displacements half of the robots that have tendons: 10 um/N to 1 mm/N of compliance for half their tendons, none
+              world axes (3 in 4) or body axes. Nothing of the robot is looked at: on the most slender ones 1
+              N is a few hundred times the load at which they buckle. 30 %: gravity in any direction.
+displacements half of the robots that have tendons: 10 um/N to 1 mm/N of compliance for half their tendons,
+none
               for the others; half of them, at least one, pulled by the displacements that they have in the
               equilibrium at their tensions, those without tension in half the cases 0 to 2 mm less. A robot
               without such an equilibrium stays at its tensions.
@@ -79,7 +80,8 @@ def _loads(rng: np.random.Generator, tubes: list[Tube]) -> list[Load]:
 
 
 def slenderness(robot: Robot) -> float:
-    """Force at the tip over EI / length^2 of the tubes glued together, least anywhere: 2.5 buckles a column."""
+    """Force at the tip over EI / length^2 of the tubes glued together, least anywhere: 2.5 buckles a
+    column."""
     last = max(robot.tubes, key=lambda tube: tube.tip)
     s = (np.arange(200) + 0.5) * last.tip / 200
     least = min(sum(tube.stiffness.EI_x for tube in robot.tubes if tube.tip > place) for place in s)

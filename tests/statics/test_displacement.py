@@ -197,4 +197,4 @@ def test_a_search_in_vain_is_given_up():
     robot = antagonists()
     shape = tactr.solve(robot, displacement=[0.0, 0.1, 0.1])
     assert not shape.converged
-    assert shape.solve_time < 20.0
+    assert "given up after" in shape.message

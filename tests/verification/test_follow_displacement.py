@@ -1,4 +1,4 @@
-"""Paths under displacements: against closed forms, paths at held tensions, and solves at the tensions found."""
+"""Paths under displacements, against closed forms, paths at held tensions and solves at the tensions."""
 
 from __future__ import annotations
 
@@ -133,8 +133,7 @@ def wander(points: int, seed: int = 0) -> dict[str, np.ndarray]:
     pull = np.column_stack([between(-2e-3, 4e-3, 3), np.full(points, np.nan)])
     rotation, translation = between(-1.2, 1.2, 3), between(-0.08, 0.0, 3)
     tension = np.column_stack([np.full((points, 3), np.nan), between(0.0, 3.0, 1)])
-    rows = {"rotation": rotation, "translation": translation, "displacement": pull, "tension": tension}
-    return rows
+    return {"rotation": rotation, "translation": translation, "displacement": pull, "tension": tension}
 
 
 def as_points(rows: dict[str, np.ndarray]) -> list[dict]:

@@ -28,6 +28,8 @@ STAYING = 0.05  # a step still shorter may leave its branch,
 MOST_JUMPS = 4  # though a solve that looks for another one costs a hundred others
 FIRST_SHARE, LEAST_SHARE = 0.125, 2e-3  # of the way from no displacement, in one step
 CLOSER = (0.5, 0.25)  # of the tensions
+WORK_NEAR = 1.5e4  # steps marched from a guess,
+WORK = 1.5e4  # in each way from cold: in all of them two or three seconds
 CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibility
 
 
@@ -40,11 +42,12 @@ class DisplacementSolver:
         self._pulls = pulls
         self._tension = tension  # of all tendons; those pulled by displacement are to be found
         self._jumps = MOST_JUMPS
-        self._best: _core.Solution | None = None  # from cold, so far
+        self._last: _core.Solution | None = None  # that Newton's method came to
 
     def from_guess(self, guess: _core.Solution, *, stay: bool = False) -> Pulled | None:
         """From a neighbour and its tensions; stay: on its branch. None: not found."""
         start = np.maximum(guess.tension[self._pulls.index], 0.0)
+        self._held.allow(WORK_NEAR)
         try:
             found = self._joint.find(guess, self._whole(start))
             if found is None and not stay:
@@ -55,34 +58,36 @@ class DisplacementSolver:
         return result if result is not None and result.met else None
 
     def from_cold(self) -> Pulled:
-        """From no tension, then, if need be, in other ways, as long as there is work left for them."""
-        first, given_up = self._held.solve(self._whole(np.zeros(len(self._pulls.index))), None), False
-        self._best = first
-        try:
-            self._try_ways(first)
-        except GivenUp:
-            given_up = True
-        met = self._rank(self._best)[0] < 2
-        stable = self._is_stable(self._best) if met else None
-        return self._result(self._best, stable, given_up=given_up)
-
-    def _try_ways(self, start: _core.Solution) -> None:
-        first = self._newton(start)
-        self._note(first)
-        for attempt in (self._again, self._gradually, self._closer):
-            if self._good(self._best):
+        """From no tension, in one way after the other, until one meets the displacements in a stable
+        shape."""
+        self._held.allow(np.inf)
+        best = self._last = self._solve(np.zeros(len(self._pulls.index)), None)
+        given_up = False
+        for way in (self._newton, self._led, self._gradually, self._again, self._closer):
+            self._held.allow(WORK)
+            start = best if way == self._newton else self._last
+            try:
+                found = way(start)
+            except GivenUp:
+                found, given_up = self._last, True
+            if self._rank(found) < self._rank(best):
+                best = found
+            if self._good(best):
                 break
-            self._note(attempt(first))
+        met = self._rank(best)[0] < 2
+        return self._result(best, self._is_stable(best) if met else None, given_up=given_up)
 
-    def _note(self, found: _core.Solution) -> None:
-        if self._best is None or self._rank(found) < self._rank(self._best):
-            self._best = found
+    def _led(self, first: _core.Solution) -> _core.Solution:
+        """From no tension, the displacements growing from those that go with it."""
+        start = self._solve(np.zeros(len(self._pulls.index)), None)
+        found = self._joint.lead(start) if start.status == 0 else None
+        return first if found is None else found
 
     def _is_stable(self, solution: _core.Solution) -> bool:
         return is_stable(self._held.prepared, self._pulls, solution)
 
-    def _good(self, solution: _core.Solution | None) -> bool:
-        return solution is not None and self._rank(solution)[0] == 0 and self._is_stable(solution)
+    def _good(self, solution: _core.Solution) -> bool:
+        return self._rank(solution)[0] == 0 and self._is_stable(solution)
 
     def _rank(self, solution: _core.Solution) -> tuple[int, float]:
         """Smaller is better."""
@@ -169,6 +174,7 @@ class DisplacementSolver:
             if after is None:
                 break
             before, missed, solution = missed, self._missed(after, shift), after
+            self._last = solution
             if missed > CHORD * before:
                 flexibility = None
         together = self._joint.find(solution, self._whole(solution.tension[self._pulls.index], held), shift)

@@ -68,18 +68,18 @@ def follow(
 ) -> Followed:
     """Follows one solution along a path of actuation; a result always comes back.
 
-    path: a sequence of mappings with tension (N), displacement (m), rotation (rad) or translation (m), each as
-    in ``solve``; or one mapping from these names to arrays (points, tendons or tubes). In between the
+    path: a sequence of mappings with tension (N), displacement (m), rotation (rad) or translation (m), each
+    as in ``solve``; or one mapping from these names to arrays (points, tendons or tubes). In between the
     actuation is linear; what is left out stays as the robot has it; a tendon is pulled by tensions all along
     or by displacements. Displacements count from the rest state at every point: where tubes move, give the
     tendons the rest_length at which their motors stand still (``rest_lengths``). start: a shape near the
-    first point, whose branch is taken, otherwise that of a cold solve. The path is walked in adaptive steps in
-    which no tube turns by more than 0.1 rad at its end; where the branch ends or loses its stability (as it is
-    pulled: held motors can keep what falls over at held tensions), it snaps: to the nearest stable shape of
-    less energy, as a slow, damped robot would, or, if there is none, to the nearest stable one. Where no
-    shape is found the next point is solved from cold. A jump of less than 0.1 rad is not told from a fast
-    motion. snap_tolerance: how closely a snap is located, in points of the path. tolerance, stations: as in
-    ``solve``. Raises RobotError.
+    first point, whose branch is taken, otherwise that of a cold solve. The path is walked in adaptive steps
+    in which no tube turns by more than 0.1 rad at its end; where the branch ends or loses its stability (as
+    it is pulled: held motors can keep what falls over at held tensions), it snaps: to the nearest stable
+    shape of less energy, as a slow, damped robot would, or, if there is none, to the nearest stable one.
+    Where no shape is found the next point is solved from cold. A jump of less than 0.1 rad is not told from a
+    fast motion. snap_tolerance: how closely a snap is located, in points of the path. tolerance, stations: as
+    in ``solve``. Raises RobotError.
     """
     if not (isinstance(snap_tolerance, int | float) and 0.0 < snap_tolerance <= FIRST_STEP):
         raise RobotError(

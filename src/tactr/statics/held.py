@@ -14,8 +14,7 @@ class GivenUp(Exception):
 
 
 class Held:
-    """A robot whose tubes stay at rotation (tubes,), rad, and translation (tubes,), m. most_work: steps
-    marched in all solves together, after which GivenUp is raised; about 3e4 take a second."""
+    """A robot whose tubes stay at rotation (tubes,), rad, and translation (tubes,), m."""
 
     def __init__(
         self,
@@ -24,14 +23,17 @@ class Held:
         translation: np.ndarray,
         tolerance: float,
         residual_tolerance: float,
-        most_work: float = np.inf,
     ) -> None:
         self.prepared = prepared
         self.residual_tolerance = residual_tolerance
         self.solves = self.marches = self.work = 0
         self._places = rotation, translation
         self._tolerance = tolerance
-        self._most_work = most_work
+        self._most_work = np.inf
+
+    def allow(self, work: float) -> None:
+        """GivenUp is raised once so much more is done: steps marched, of which about 3e4 take a second."""
+        self._most_work = self.work + work
 
     def solve(
         self, tension: np.ndarray, guess: _core.Solution | None, *, stay: bool = False

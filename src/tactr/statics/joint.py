@@ -1,10 +1,10 @@
 """Newton's method on free end and tensions together, for tendons pulled by displacements.
 
-At held tensions a branch may end at a fold that it passes smoothly at held displacements: there the shape is no
-function of the tensions. With the base missed by r(x, T) at a free end x, and gaps F(x, T) of the motors (see
-``displacement``), each step takes r = 0 and the complementarity of T and F to first order; x eliminated, a
-linear complementarity problem in T remains. A step is good where the next one is shorter (natural monotonicity:
-Deuflhard, Newton Methods for Nonlinear Problems, 2004, ch. 3).
+At held tensions a branch may end at a fold that it passes smoothly at held displacements: there the shape is
+no function of the tensions. With the base missed by r(x, T) at a free end x, and gaps F(x, T) of the motors
+(see ``displacement``), each step takes r = 0 and the complementarity of T and F to first order; x eliminated,
+a linear complementarity problem in T remains. A step is good where the next one is shorter (natural
+monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2004, ch. 3).
 """
 
 from __future__ import annotations
@@ -65,8 +65,8 @@ class JointNewton:
         return near if missed <= self._pulls.tolerance else None
 
     def lead(self, branch: _core.Solution) -> _core.Solution | None:
-        """From an equilibrium at any tensions to the displacements: these go straight from what the motors pull
-        there to what is asked for, the branch is kept."""
+        """From an equilibrium at any tensions to the displacements: these go straight from what the motors
+        pull there to what is asked for, the branch is kept."""
         ahead, done, step = -self._pulls.gap(branch), 0.0, 1.0
         for _ in range(MOST_LEGS):
             if done == 1.0:

@@ -1,4 +1,5 @@
-"""Actuation along a path: rows of tensions or displacements, rotations and translations, linear in between."""
+"""Actuation along a path: rows of tensions or displacements, rotations and translations, linear in
+between."""
 
 from __future__ import annotations
 

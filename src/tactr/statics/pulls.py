@@ -42,8 +42,8 @@ class Pulls:
         )
 
     def missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> np.ndarray:
-        """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one. shift: added
-        to the gaps."""
+        """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one. shift:
+        added to the gaps."""
         gap = self.gap(solution) + shift
         return np.where(solution.tension[self.index] > 0.0, np.abs(gap), np.maximum(-gap, 0.0))
 
@@ -67,8 +67,8 @@ class Pulls:
 class Pulled:
     """What a solve under displacements came to. missed (n,) m; solves: at held tensions; marches: in all of
     them. stable: whether the shape is with the motors held, None: not looked at. rested: whether there is a
-    rest state to count from; solution is what was found for it where there is none. given_up: not all was tried
-    that might have led on, for it would have taken too long."""
+    rest state to count from; solution is what was found for it where there is none. given_up: not all was
+    tried that might have led on, for it would have taken too long."""
 
     pulls: Pulls
     solution: _core.Solution
@@ -111,7 +111,8 @@ class Pulled:
 def is_stable(prepared: _core.PreparedRobot, pulls: Pulls, solution: _core.Solution) -> bool:
     """Whether a shape is stable with the motors held: as many directions of falling energy at held tensions
     as negative flexibilities of the taut tendons, each of which a held motor takes away (inertia of the
-    bordered second variation, Haynsworth 1968). Not stable where that cannot be told: tubes all but crushed."""
+    bordered second variation, Haynsworth 1968). Not stable where that cannot be told: tubes all but
+    crushed."""
     try:
         if _core.stability(prepared, solution, 0)[0]:
             return True

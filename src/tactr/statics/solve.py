@@ -34,8 +34,6 @@ from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
 
 RESIDUAL_SHARE = 0.05  # of the tolerance at the tip may come from the angle by which the base is missed
-GUESS_SHARE = 0.25  # of the same from a guess, before a cold start
-MOST_WORK = 8e4  # steps marched for displacements, in all solves together: two to three seconds
 LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e-11, 1e-6  # rad: rounding below, carelessness above
 
 
@@ -89,9 +87,9 @@ def branches(
     of simplices, otherwise low-discrepancy starts, both repeated with more samples while the count of stable
     and unstable equilibria shows that some are missing. Shapes that turn into each other at no cost count as
     one. Under displacements all equilibria are found at some held tensions, and led from there to the
-    displacements by Newton's method: what is found are equilibria, but nothing shows whether some are missing.
-    samples: points of the first sweep or grid, or starts; None: by the number of unknowns. The rest is as in
-    ``solve``. Raises RobotError.
+    displacements by Newton's method: what is found are equilibria, but nothing shows whether some are
+    missing. samples: points of the first sweep or grid, or starts; None: by the number of unknowns. The rest
+    is as in ``solve``. Raises RobotError.
     """
     if loads is not None:
         robot = robot.replace(loads=tuple(loads))
@@ -241,9 +239,9 @@ class Prepared:
         solution = self._held(actuated).solve(actuated.arrays[0], _start(guess), stay=stay)
         return self._shape(actuated, solution, perf_counter() - start)
 
-    def _held(self, actuated: _Actuated, most_work: float = np.inf) -> Held:
+    def _held(self, actuated: _Actuated) -> Held:
         _, rotation, translation = actuated.arrays
-        return Held(self._core, rotation, translation, self.tolerance, self.residual_tolerance, most_work)
+        return Held(self._core, rotation, translation, self.tolerance, self.residual_tolerance)
 
     def _pulled(
         self, actuated: _Actuated, displacement: np.ndarray, guess: Shape | None, stay: bool
@@ -253,16 +251,13 @@ class Prepared:
         pulls = pulls_from(self._rest, actuated.arrays, displacement, self._compliance, self.tolerance)
         if isinstance(pulls, Pulled):
             return pulls
-
-        def solver(share: float) -> DisplacementSolver:
-            return DisplacementSolver(self._held(actuated, share * MOST_WORK), pulls, actuated.arrays[0])
-
+        solver = DisplacementSolver(self._held(actuated), pulls, actuated.arrays[0])
         near, found = _start(guess), None
         if near is not None and len(near.tension) == len(displacement):
-            found = solver(GUESS_SHARE).from_guess(near, stay=stay)
+            found = solver.from_guess(near, stay=stay)
             if found is None and stay:
                 return Pulled(pulls, near, np.full(len(pulls.index), LARGEST), 0, 0)
-        return solver(1.0).from_cold() if found is None else found
+        return solver.from_cold() if found is None else found
 
     def _shape(
         self, actuated: _Actuated, solution: _core.Solution, elapsed: float, pulled: Pulled | None = None
