@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "energetics.hpp"
+#include "joint.hpp"
 #include "point_contact.hpp"
 #include "sample.hpp"
 #include "sensitivity.hpp"
@@ -258,6 +259,33 @@ nb::object length_jacobian(const PreparedRobot& robot, const tactr::Solution& so
     return nb::cast(array_of(std::move(square), shape));
 }
 
+/// (solution, missed at the base, d(missed, lengths)/d(free end, tensions)), or None: a section had no equilibrium. The
+/// solution keeps the neighbour's status, to be its successor as a guess; it meets the base only where nothing is missed.
+nb::object joint_march(const PreparedRobot& robot, const tactr::Solution& neighbour, const Vector& step, const Vector& tension,
+                       const Vector& rotation, const Vector& translation, double tolerance) {
+    tactr::Solution solution = neighbour;
+    solution.tension = copied(tension, robot.tendons.size(), "tension");
+    solution.rotation = copied(rotation, robot.tubes.size(), "rotation");
+    solution.translation = copied(translation, robot.tubes.size(), "translation");
+    solution.iterations = 0;
+    solution.steps_marched = 0;
+    solution.stability = tactr::StabilityFound::unchecked;
+    solution.switched = solution.used_continuation = false;
+    std::vector<double> moved(step.data(), step.data() + step.shape(0));
+    moved.resize(tactr::MAX_UNKNOWNS, 0.0);
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    tactr::JointMarch found;
+    bool marched = false;
+    {
+        nb::gil_scoped_release release;
+        marched = tactr::joint_march(robot.view(), moved, settings, solution, found);
+    }
+    if (!marched) return nb::none();
+    const size_t rows = found.missed.size() + robot.tendons.size(), shape[2] = {rows, rows};
+    return nb::make_tuple(solution, vector_of(found.missed.data(), found.missed.size()), array_of(std::move(found.matrix), shape));
+}
+
 /// Per tube: outer neighbours (records,), forces and moments (records, 3); s (records,).
 nb::dict contact_arrays(const std::vector<tactr::ContactRecord>& records, size_t tubes) {
     std::vector<double> s, outer, force, moment;
@@ -333,6 +361,7 @@ NB_MODULE(_core, m) {
     nb::class_<tactr::Solution>(m, "Solution", "What a solve found.")
         .def_prop_ro("status", [](const tactr::Solution& s) { return static_cast<int>(s.status); })
         .def_ro("iterations", &tactr::Solution::iterations)
+        .def_ro("steps_marched", &tactr::Solution::steps_marched)
         .def_ro("base_residual", &tactr::Solution::base_residual)
         .def_ro("section_residual", &tactr::Solution::section_residual)
         .def_ro("discretisation_error", &tactr::Solution::discretisation_error)
@@ -362,6 +391,8 @@ NB_MODULE(_core, m) {
     m.def("sensitivities", &sensitivities, "robot"_a, "solution"_a, "stations"_a, "lengths"_a, "actuators"_a, "probe"_a, "rates"_a,
           "Exact derivatives: rows tip, stations, lengths; columns tensions, rotations, translations, wrench, parameters.");
     m.def("length_jacobian", &length_jacobian, "robot"_a, "solution"_a, "d(tendon lengths)/d(tensions).");
+    m.def("joint_march", &joint_march, "robot"_a, "neighbour"_a, "step"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a,
+          "One march from a moved free end: a solution to go on from, missed, d(missed, lengths)/d(free end, tensions); or None.");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
     m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");

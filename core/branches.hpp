@@ -46,6 +46,8 @@ class BranchFinder {
         return has_stable();
     }
 
+    long work() const { return work_; }  // steps marched
+
     bool has_stable() const {
         return std::any_of(found.begin(), found.end(),
                            [](const Solution& s) { return s.stability == StabilityFound::stable; });
@@ -384,12 +386,16 @@ inline void settle(const NewtonSolver& cold, Solution& solution) {
     const Solution first = solution;
     BranchFinder finder(newton, first);
     finder.keep(solution);
-    if (!finder.search_stable()) return;
+    const bool found = finder.search_stable();
+    solution.steps_marched += finder.work();
+    if (!found) return;
     finder.sort();
     const int iterations = solution.iterations;
+    const long steps_marched = solution.steps_marched;
     const bool continued = solution.used_continuation;
     solution = finder.found.front();
     solution.iterations += iterations;
+    solution.steps_marched = steps_marched;
     solution.used_continuation = continued;
     solution.switched = true;
 }

@@ -29,6 +29,8 @@ bool converge_cold(NewtonSolver& newton, Solution& solution) {
     return false;
 }
 
+constexpr int MOST_NEARBY = 12;  // iterations on a neighbour's branch: where more are needed, it is none
+
 void solve_cold(NewtonSolver& newton, Solution& solution) {
     if (converge_cold(newton, solution)) settle(newton, solution);
 }
@@ -46,8 +48,10 @@ bool carry_over(NewtonSolver& newton, const Solution& guess, Solution& solution)
 
 }  // namespace
 
-void solve(const Robot& robot, const Actuation<double>& actuation, const Settings& settings, const Solution* guess,
+void solve(const Robot& robot, const Actuation<double>& actuation, const Settings& given, const Solution* guess,
                   Solution& solution) {
+    Settings settings = given;
+    if (guess && given.stay) settings.max_iterations = MOST_NEARBY;
     NewtonSolver newton(robot, actuation, settings);
     if (guess && ((newton.start_from(*guess, solution) && newton.polish(solution, NewtonSolver::Kind::draft)) ||
                   carry_over(newton, *guess, solution)))

@@ -25,6 +25,7 @@ class Solution:
 
     status: int
     iterations: int
+    steps_marched: int
     base_residual: float
     section_residual: float
     discretisation_error: float
@@ -83,6 +84,18 @@ def stability(
     robot: PreparedRobot, solution: Solution, samples: int
 ) -> tuple[bool, float, np.ndarray, np.ndarray, np.ndarray]:
     """Stable, margin, s, determinant, conjugate points."""
+
+def joint_march(
+    robot: PreparedRobot,
+    neighbour: Solution,
+    step: np.ndarray,
+    tension: np.ndarray,
+    rotation: np.ndarray,
+    translation: np.ndarray,
+    tolerance: float,
+) -> tuple[Solution, np.ndarray, np.ndarray] | None:
+    """One march from a moved free end: a solution to go on from, which may miss the base; by how much;
+    d(missed, lengths)/d(free end, tensions). None: a section had no equilibrium."""
 
 def potential_energy(robot: PreparedRobot, solution: Solution) -> float:
     """Potential energy, J."""

@@ -11,7 +11,7 @@ import numpy as np
 from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
-from tactr.statics.actuation import rotations, tensions, translations
+from tactr.statics.actuation import displacements, rotations, tensions, translations
 from tactr.statics.path import Path, path_points
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared, _Actuated
@@ -68,15 +68,18 @@ def follow(
 ) -> Followed:
     """Follows one solution along a path of actuation; a result always comes back.
 
-    path: a sequence of mappings with tension (N), rotation (rad) or translation (m), each as in ``solve``;
-    or one mapping from these names to arrays (points, tendons or tubes). In between the actuation is linear;
-    what is left out stays as the robot has it. start: a shape near the first point, whose branch is taken,
-    otherwise that of a cold solve. The path is walked in adaptive steps in which no tube turns by more than
-    0.1 rad at its end; where the branch ends or loses its stability, it snaps: to the nearest stable shape of
-    less energy, as a slow, damped robot would, or, if there is none, to the nearest stable one. Where no
-    shape is found the next point is solved from cold. A jump of less than 0.1 rad is not told from a fast
-    motion. snap_tolerance: how closely a snap is located, in points of the path. tolerance, stations: as in
-    ``solve``. Raises RobotError.
+    path: a sequence of mappings with tension (N), displacement (m), rotation (rad) or translation (m), each
+    as in ``solve``; or one mapping from these names to arrays (points, tendons or tubes). In between the
+    actuation is linear; what is left out stays as the robot has it; a tendon is pulled by tensions all along
+    or by displacements. Displacements count from the rest state at every point: where tubes move, give the
+    tendons the rest_length at which their motors stand still (``rest_lengths``). start: a shape near the
+    first point, whose branch is taken, otherwise that of a cold solve. The path is walked in adaptive steps
+    in which no tube turns by more than 0.1 rad at its end; where the branch ends or loses its stability (as
+    it is pulled: held motors can keep what falls over at held tensions), it snaps: to the nearest stable
+    shape of less energy, as a slow, damped robot would, or, if there is none, to the nearest stable one.
+    Where no shape is found the next point is solved from cold. A jump of less than 0.1 rad is not told from a
+    fast motion. snap_tolerance: how closely a snap is located, in points of the path. tolerance, stations: as
+    in ``solve``. Raises RobotError.
     """
     if not (isinstance(snap_tolerance, int | float) and 0.0 < snap_tolerance <= FIRST_STEP):
         raise RobotError(
@@ -94,6 +97,8 @@ class _Follower:
         self._prepared = prepared
         self._base = points[0]
         self._rows = [np.array([read(p) for p in points]) for read in (tensions, rotations, translations)]
+        pulls = [displacements(p) for p in points]
+        self._pulls = None if pulls[0] is None else np.array(pulls)
         self._count = len(points)
         self._least_step = least_step
         self._step = FIRST_STEP
@@ -112,16 +117,21 @@ class _Follower:
     def _at(self, t: float) -> _Actuated:
         k = min(math.floor(t), max(self._count - 2, 0))
         part = t - k
-        tension, rotation, translation = (
-            r[k] if part == 0.0 else (1.0 - part) * r[k] + part * r[k + 1] for r in self._rows
-        )
-        plain = {  # a profile is not replaced by a number
+
+        def between(rows: np.ndarray) -> np.ndarray:
+            return rows[k] if part == 0.0 else (1.0 - part) * rows[k] + part * rows[k + 1]
+
+        tension, rotation, translation = map(between, self._rows)
+        plain = {  # a profile is not replaced by a number, nor a displacement by a tension
             tendon.name: value
             for tendon, value in zip(self._base.tendons, tension, strict=True)
-            if not isinstance(tendon.tension, TensionProfile)
+            if tendon.displacement is None and not isinstance(tendon.tension, TensionProfile)
         }
         changed = {"tension": plain, "rotation": rotation, "translation": translation}
-        return _Actuated(self._base, (tension, rotation, translation), changed)
+        pull = None if self._pulls is None else between(self._pulls)
+        if pull is not None:
+            changed["displacement"] = pull
+        return _Actuated(self._base, (tension, rotation, translation), changed, pull)
 
     def _solve(self, t: float, guess: Shape | None) -> Shape:
         return self._prepared._solved(self._at(t), guess, stay=guess is not None)
@@ -155,12 +165,12 @@ class _Follower:
 
     def _land(self, shape: Shape, t: float) -> Shape:
         """The stable shape that a shape moves to where its branch is lost. Noted as a snap if it is far."""
-        found = self._prepared._found(self._at(t), 0)
+        found = self._prepared._found(self._at(t), 0, near=shape)
         stable = [other for other in found if self._stable(other)]
         if not stable:
             after = found[0] if found else self._solve(t, None)
         else:
-            lower = [other for other in stable if other.potential_energy <= shape.potential_energy]
+            lower = [other for other in stable if _energy(other) <= _energy(shape)]
             after = min(lower or stable, key=lambda other: self._turn(shape, other))
             nearest = min(stable, key=lambda other: self._turn(shape, other))
             if self._turn(shape, nearest) <= LONGEST_TURN:
@@ -170,8 +180,17 @@ class _Follower:
 
     @staticmethod
     def _stable(shape: Shape) -> bool:
+        if shape._pulled is not None:
+            return shape.stable
         return bool(_core.stability(shape._prepared, shape._solution, 0)[0])
 
     @staticmethod
     def _turn(a: Shape, b: Shape) -> float:
         return _core.free_end_distance(a._prepared, a._solution, b._solution)
+
+
+def _energy(shape: Shape) -> float:
+    """Of which a minimum is stable, J: with held motors where these hold displacements."""
+    if shape._pulled is None:
+        return shape.potential_energy
+    return shape._pulled.pulls.energy(shape._prepared, shape._solution)

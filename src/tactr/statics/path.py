@@ -1,4 +1,5 @@
-"""Actuation along a path: rows of tensions, rotations and translations, linear in between."""
+"""Actuation along a path: rows of tensions or displacements, rotations and translations, linear in
+between."""
 
 from __future__ import annotations
 
@@ -10,11 +11,11 @@ import numpy as np
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
 
-KINDS = ("tension", "rotation", "translation")
+KINDS = ("tension", "rotation", "translation", "displacement")
 Path = Sequence[Mapping[str, Any]] | Mapping[str, Any]
 EXPECTED = (
-    "a list of mappings like {'rotation': {'inner': 0.1}}, or one mapping from 'tension', 'rotation' or "
-    "'translation' to an array with a row for every point and a column for every tendon or tube"
+    "a list of mappings like {'rotation': {'inner': 0.1}}, or one mapping from 'tension', 'displacement', "
+    "'rotation' or 'translation' to an array with a row for every point and a column for every tendon or tube"
 )
 
 
@@ -23,7 +24,10 @@ def path_points(robot: Robot, path: Path) -> list[Robot]:
     points = _rows(path) if isinstance(path, Mapping) else path
     if isinstance(points, str) or not isinstance(points, Sequence) or len(points) == 0:
         raise RobotError("path", f"{path!r} is not a path", EXPECTED, value=path)
-    return [_at(robot, point, k) for k, point in enumerate(points)]
+    found = [_at(robot, point, k) for k, point in enumerate(points)]
+    for k, moved in enumerate(found):
+        _check_same_pulls(found[0], moved, k)
+    return found
 
 
 def _rows(path: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -47,13 +51,6 @@ def _at(robot: Robot, point: object, k: int) -> Robot:
         moved = robot.with_actuation(**point)
     except RobotError as error:
         raise error.under(f"path[{k}]") from None
-    for j, tendon in enumerate(moved.tendons):
-        if tendon.displacement is not None:
-            raise RobotError(
-                f"path[{k}]",
-                f"tendons[{j}] is pulled by a displacement",
-                "tensions: a path is followed at these",
-            )
     for own, other in zip(robot.tendons, moved.tendons, strict=True):
         profiled = isinstance(own.tension, TensionProfile) or isinstance(other.tension, TensionProfile)
         if profiled and own.tension != other.tension:
@@ -61,6 +58,19 @@ def _at(robot: Robot, point: object, k: int) -> Robot:
                 f"path[{k}].tension", f"{own.name!r} has a tension profile", "the profile as it is"
             )
     return moved
+
+
+def _check_same_pulls(first: Robot, moved: Robot, k: int) -> None:
+    """Between a tension and a displacement there is nothing linear."""
+    for own, other in zip(first.tendons, moved.tendons, strict=True):
+        if (own.displacement is None) != (other.displacement is None):
+            kinds = ("tension", "displacement")
+            before, now = kinds if own.displacement is None else kinds[::-1]
+            raise RobotError(
+                f"path[{k}].{now}",
+                f"{own.name!r} is pulled by a {now}, at path[0] by a {before}",
+                f"a {before} at every point, or a {now} at every point",
+            )
 
 
 def _check_kinds(point: Mapping[str, Any], field: str) -> None:

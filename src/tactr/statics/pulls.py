@@ -40,10 +40,18 @@ class Pulls:
             - self.displacement
         )
 
-    def missed(self, solution: _core.Solution) -> np.ndarray:
-        """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one."""
-        gap = self.gap(solution)
+    def missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> np.ndarray:
+        """What of the gaps is wrong, (n,), m: any of a taut tendon, a negative one of a slack one. shift:
+        added to the gaps."""
+        gap = self.gap(solution) + shift
         return np.where(solution.tension[self.index] > 0.0, np.abs(gap), np.maximum(-gap, 0.0))
+
+    def energy(self, prepared: _core.PreparedRobot, solution: _core.Solution) -> float:
+        """Potential energy with the motors held, J: these do no work, the springs of the tendons are
+        stretched; without what does not change."""
+        tension, length = solution.tension[self.index], solution.tendon_length[self.index]
+        springs = 0.5 * float(self.compliance @ tension**2)
+        return _core.potential_energy(prepared, solution) - float(tension @ length) + springs
 
     def flexibility(self, prepared: _core.PreparedRobot, solution: _core.Solution) -> np.ndarray | None:
         """d gap / d tension, (n, n), m/N; None at a fold, where lengths jump."""
@@ -58,7 +66,8 @@ class Pulls:
 class Pulled:
     """What a solve under displacements came to. missed (n,) m; solves: at held tensions; marches: in all of
     them. stable: whether the shape is with the motors held, None: not looked at. rested: whether there is a
-    rest state to count from; solution is what was found for it where there is none."""
+    rest state to count from; solution is what was found for it where there is none. given_up: not all was
+    tried that might have led on, for it would have taken too long."""
 
     pulls: Pulls
     solution: _core.Solution
@@ -67,6 +76,7 @@ class Pulled:
     marches: int
     stable: bool | None = None
     rested: bool = True
+    given_up: bool = False
 
     @property
     def met(self) -> bool:
@@ -86,11 +96,17 @@ class Pulled:
 def is_stable(prepared: _core.PreparedRobot, pulls: Pulls, solution: _core.Solution) -> bool:
     """Whether a shape is stable with the motors held: as many directions of falling energy at held tensions
     as negative flexibilities of the taut tendons, each of which a held motor takes away (inertia of the
-    bordered second variation, Haynsworth 1968)."""
-    falling = len(_core.stability(prepared, solution, 0)[4])
-    flexibility = pulls.flexibility(prepared, solution) if falling > 0 else None
+    bordered second variation, Haynsworth 1968). Not stable where that cannot be told: tubes all but
+    crushed."""
+    try:
+        if _core.stability(prepared, solution, 0)[0]:
+            return True
+        falling = len(_core.stability(prepared, solution, 1)[4])  # without samples they are not located
+    except RuntimeError:
+        return False
+    flexibility = pulls.flexibility(prepared, solution)
     if flexibility is None:
-        return falling == 0
+        return False
     taut = solution.tension[pulls.index] > 0.0
     part = flexibility[np.ix_(taut, taut)]
     return int((np.linalg.eigvalsh(0.5 * (part + part.T)) < 0.0).sum()) == falling

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -26,7 +26,9 @@ from tactr.statics.actuation import (
 )
 from tactr.statics.assemble import assemble
 from tactr.statics.displacement import DisplacementSolver
-from tactr.statics.pulls import Pulled
+from tactr.statics.held import Held
+from tactr.statics.pulled_branches import PulledBranches
+from tactr.statics.pulls import LARGEST, Pulled
 from tactr.statics.rest import RestState, pulls_from
 from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
@@ -72,6 +74,7 @@ def branches(
     tension: Tensions | None = None,
     rotation: Numbers | None = None,
     translation: Numbers | None = None,
+    displacement: Displacements | None = None,
     loads: Sequence[Load] | None = None,
     samples: int | None = None,
     tolerance: float = 1e-6,
@@ -83,13 +86,17 @@ def branches(
     of the tip. For two tubes without such loads a sweep finds every equilibrium; for three and four a grid
     of simplices, otherwise low-discrepancy starts, both repeated with more samples while the count of stable
     and unstable equilibria shows that some are missing. Shapes that turn into each other at no cost count as
-    one. samples: points of the first sweep or grid, or starts; None: by the number of unknowns. The rest is
-    as in ``solve``. Raises RobotError.
+    one. Under displacements all equilibria are found at some held tensions, and led from there to the
+    displacements by Newton's method: what is found are equilibria, but nothing shows whether some are
+    missing. samples: points of the first sweep or grid, or starts; None: by the number of unknowns. The rest
+    is as in ``solve``. Raises RobotError.
     """
     if loads is not None:
         robot = robot.replace(loads=tuple(loads))
-    if tension is not None or rotation is not None or translation is not None:
-        robot = robot.with_actuation(tension=tension, rotation=rotation, translation=translation)
+    if any(given is not None for given in (tension, rotation, translation, displacement)):
+        robot = robot.with_actuation(
+            tension=tension, rotation=rotation, translation=translation, displacement=displacement
+        )
     return Prepared(robot, tolerance=tolerance, stations=stations).branches(samples=samples)
 
 
@@ -158,22 +165,31 @@ class Prepared:
         tension: Tensions | None = None,
         rotation: Numbers | None = None,
         translation: Numbers | None = None,
+        displacement: Displacements | None = None,
         samples: int | None = None,
     ) -> list[Shape]:
         """As ``tactr.branches``, for this robot."""
         count = _samples(samples)
-        actuated = self._actuated(tension, rotation, translation)
+        actuated = self._actuated(tension, rotation, translation, displacement)
         if isinstance(actuated, Prepared):
             return actuated.branches(samples=samples)
         return self._found(actuated, count)
 
-    def _found(self, actuated: _Actuated, samples: int) -> list[Shape]:
-        """All equilibria that a search finds; samples 0: as many as fit the number of unknowns."""
-        if actuated.displacement is not None:
-            raise RobotError(
-                "displacement", "branches are searched at held tensions", "tensions of all tendons"
-            )
+    def _found(self, actuated: _Actuated, samples: int, near: Shape | None = None) -> list[Shape]:
+        """All equilibria that a search finds; samples 0: as many as fit the number of unknowns. near: a shape
+        from whose tensions those under displacements are looked for, until a stable one is found."""
         start = perf_counter()
+        if actuated.displacement is not None:
+            first = self._solved(actuated, None) if near is None else near
+            pulls = pulls_from(
+                self._rest, actuated.arrays, actuated.displacement, self._compliance, self.tolerance
+            )
+            if isinstance(pulls, Pulled) or not first.converged:
+                return []
+            search = PulledBranches(self._held(actuated), pulls, actuated.arrays[0], samples)
+            some = search.found(first._solution, until_stable=near is not None)
+            elapsed = perf_counter() - start
+            return [self._shape(actuated, pulled.solution, elapsed, pulled) for pulled in some]
         found = _core.branches(self._core, *actuated.arrays, self.tolerance, self.residual_tolerance, samples)
         elapsed = perf_counter() - start
         return [self._shape(actuated, solution, elapsed) for solution in found]
@@ -218,32 +234,30 @@ class Prepared:
         """From a guess or from cold; stay: on the guess's branch or not at all."""
         start = perf_counter()
         if actuated.displacement is not None:
-            pulled = self._pulled(actuated, actuated.displacement, guess)
+            pulled = self._pulled(actuated, actuated.displacement, guess, stay)
             return self._shape(actuated, pulled.solution, perf_counter() - start, pulled)
-        solution = self._at_tensions(actuated, actuated.arrays[0], _start(guess), stay)
+        solution = self._held(actuated).solve(actuated.arrays[0], _start(guess), stay=stay)
         return self._shape(actuated, solution, perf_counter() - start)
 
-    def _at_tensions(
-        self, actuated: _Actuated, tension: np.ndarray, guess: _core.Solution | None, stay: bool
-    ) -> _core.Solution:
+    def _held(self, actuated: _Actuated) -> Held:
         _, rotation, translation = actuated.arrays
-        tolerances = self.tolerance, self.residual_tolerance
-        return _core.solve(self._core, tension, rotation, translation, *tolerances, guess, stay=stay)
+        return Held(self._core, rotation, translation, self.tolerance, self.residual_tolerance)
 
-    def _pulled(self, actuated: _Actuated, displacement: np.ndarray, guess: Shape | None) -> Pulled:
-        """Tensions from displacements, NaN for tendons at their tension: from a guess, then from cold."""
+    def _pulled(
+        self, actuated: _Actuated, displacement: np.ndarray, guess: Shape | None, stay: bool
+    ) -> Pulled:
+        """Tensions from displacements, NaN for tendons at their tension: from a guess, then, unless it is to
+        stay there, from cold."""
         pulls = pulls_from(self._rest, actuated.arrays, displacement, self._compliance, self.tolerance)
         if isinstance(pulls, Pulled):
             return pulls
-        solver = DisplacementSolver(
-            self._core, partial(self._at_tensions, actuated), pulls, actuated.arrays[0]
-        )
-        near = _start(guess)
+        solver = DisplacementSolver(self._held(actuated), pulls, actuated.arrays[0])
+        near, found = _start(guess), None
         if near is not None and len(near.tension) == len(displacement):
-            found = solver.from_guess(near)
-            if found.met:
-                return found
-        return solver.from_cold()
+            found = solver.from_guess(near, stay=stay)
+            if found is None and stay:
+                return Pulled(pulls, near, np.full(len(pulls.index), LARGEST), 0, 0)
+        return solver.from_cold() if found is None else found
 
     def _shape(
         self, actuated: _Actuated, solution: _core.Solution, elapsed: float, pulled: Pulled | None = None

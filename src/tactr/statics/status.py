@@ -74,8 +74,9 @@ def told_with_pulls(text: str, status: Status, pulled: Pulled, robot: Robot) -> 
         return f"{text}; {held}, {f'slack: {slack}' if slack else 'no tendon slack'}"
     if not pulled.rested:
         return f"the rest state, from which displacements count, was not found: {text}"
+    given_up = f" The search was given up after {pulled.marches} marches." if pulled.given_up else ""
     if status is not Status.NOT_MET:
-        return f"at the tensions tried for the displacements, {text}"
+        return f"at the tensions tried for the displacements, {text}{given_up}"
     worst = int(pulled.missed.argmax())
     names = [robot.tendons[j].name for j in pulled.pulls.index]
     tensions = ", ".join(
@@ -86,6 +87,7 @@ def told_with_pulls(text: str, status: Status, pulled: Pulled, robot: Robot) -> 
         f"{pulled.pulls.displacement[worst] * 1e3:.4g} mm by {pulled.missed[worst] * 1e3:.2g} mm at the best "
         f"tensions found ({tensions}). Displacements that work against each other compress the tubes: pull "
         "less, give the tendons their compliance, check the units, or start from a shape nearby with guess=."
+        f"{given_up}"
     )
 
 
