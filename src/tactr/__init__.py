@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tactr import examples, materials, reference
+    from tactr import examples, materials, reference, reproduce
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
     from tactr.io import load, save
     from tactr.robot import (
@@ -110,7 +110,7 @@ _HOME = {
     ),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
-_SUBMODULES = ("examples", "materials", "reference")
+_SUBMODULES = ("examples", "materials", "reference", "reproduce")
 
 __version__ = "0.1.0"
 __all__ = [
@@ -162,6 +162,7 @@ __all__ = [
     "load",
     "materials",
     "reference",
+    "reproduce",
     "rest_lengths",
     "save",
     "solve",
