@@ -23,10 +23,9 @@ def run_reproduce(out: Path) -> int:
 
     Raises UsageError for an `out` that is no folder, MissingExtra without matplotlib, FileError.
     """
-    if out.exists() and not out.is_dir():
-        raise UsageError(f"--out: {out} is a file; expected a folder")
     if find_spec("matplotlib") is None:
         raise MissingExtra("matplotlib", "plot", "a report with figures")
+    _make(out)
     from tactr import reproduce
 
     reproduction = reproduce.run(progress=_progress(EXPERIMENTS))
@@ -35,6 +34,16 @@ def run_reproduce(out: Path) -> int:
     for path in paths:
         print(f"wrote {path}")
     return 0
+
+
+def _make(folder: Path) -> None:
+    """Before the work, so that a wrong folder is not found out after it."""
+    if folder.exists() and not folder.is_dir():
+        raise UsageError(f"--out: {folder} is a file; expected a folder")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"--out: {folder} cannot be made: {error.strerror or error}") from None
 
 
 def _progress(what: str):

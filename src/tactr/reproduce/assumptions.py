@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from tactr.errors import RobotError
-from tactr.robot import Robot, Straight
+from tactr.robot import Robot, Stiffness, Straight, Tendon, Tube
 from tactr.statics.parameters import value_of, with_value
 
 DIAMETER, SHARE = 0.05, 0.1
@@ -83,13 +83,13 @@ def _assumption(robot: Robot, name: str, reason: str) -> Assumption | None:
         return None
     group, index, quantity = match[1], int(match[2]), match[3]
     if group == "tubes":
-        owner = robot.tubes[index].name
-        built = _of_tube(robot, f"tubes.{owner}", quantity)
-        what = f"{owner} tube: {_words(quantity)}"
+        tube = robot.tubes[index]
+        built = _of_tube(robot, tube, quantity)
+        what = f"{tube.name} tube: {_words(quantity)}"
     else:
-        owner = robot.tendons[index].name
-        built = _of_tendon(robot, f"tendons.{owner}", quantity)
-        what = f"tendon {owner}: {_words(quantity)}".replace("tendon tendon", "tendon")
+        tendon = robot.tendons[index]
+        built = _of_tendon(robot, tendon, quantity)
+        what = f"tendon {tendon.name}: {_words(quantity)}".replace("tendon tendon", "tendon")
     return None if built is None else Assumption(what, (name,), reason, *built)
 
 
@@ -101,8 +101,11 @@ def _words(quantity: str) -> str:
 Built = tuple[str, str, Steps]
 
 
-def _of_tube(robot: Robot, path: str, quantity: str) -> Built | None:
+def _of_tube(robot: Robot, tube: Tube, quantity: str) -> Built | None:
+    path = f"tubes.{tube.name}"
     if quantity.endswith("diameter"):
+        if isinstance(tube.section, Stiffness):
+            return None  # only drawn
         return _scaled(robot, [f"{path}.section.{quantity}"], DIAMETER, 1e3, "mm")
     if quantity == "length":
         full = f"{path}.length"
@@ -117,12 +120,12 @@ def _of_tube(robot: Robot, path: str, quantity: str) -> Built | None:
     return None
 
 
-def _of_tendon(robot: Robot, path: str, quantity: str) -> Built | None:
+def _of_tendon(robot: Robot, tendon: Tendon, quantity: str) -> Built | None:
+    path, routing = f"tendons.{tendon.name}", tendon.routing
     if quantity == "tension":
         return _scaled(robot, [f"{path}.tension"], SHARE, 1.0, "N")
     if not quantity.startswith("routing"):
         return None
-    routing = next(t.routing for t in robot.tendons if f"tendons.{t.name}" == path)
     if not isinstance(routing, Straight):
         return None
     x, y = routing.x, routing.y
@@ -136,6 +139,6 @@ def _of_tendon(robot: Robot, path: str, quantity: str) -> Built | None:
 def _scaled(robot: Robot, paths: list[str], share: float, unit: float, name: str, *, shown: int = 3) -> Built:
     """All numbers at the paths by the same share of each; the first `shown` of them are printed."""
     values = [value_of(robot, path) for path in paths]
-    texts = [f"{unit * value:.4g}" for value in values[:shown] if value] or ["0"]
+    texts = [f"{unit * value:.5g}" for value in values[:shown] if value] or ["0"]
     steps = tuple((path, share * value) for path, value in zip(paths, values, strict=True) if value)
     return f"{', '.join(texts)} {name}", f"± {100 * share:g} %", steps

@@ -65,8 +65,8 @@ def turned_about_z(robot: Robot) -> Robot:
     """The same helix with the paper's frame, R* = Rz: u* is a twist, and v* is askew, both constant.
 
     For p* = (a cos ks, a sin ks, ..) in arc length and R* = Rz(ks), u* = (0, 0, k) and v* = R*^T p*' =
-    (0, a k, sqrt(1 - (a k)^2)), with k^2 = u_x^2 + u_z^2 of the helix and a k = u_x / k. Its d1 points away from the
-    helix' axis, where d2 does in the robot file: tube and tendon are turned by 90 deg.
+    (0, a k, sqrt(1 - (a k)^2)), with k^2 = u_x^2 + u_z^2 of the helix and a k = u_x / k. Its d1 points away
+    from the helix' axis, where d2 does in the robot file: tube and tendon are turned by 90 deg.
     """
     curvature, _, torsion = robot.tubes[0].precurvature[0][1]  # type: ignore[index]
     k = math.hypot(curvature, torsion)

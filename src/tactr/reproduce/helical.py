@@ -103,6 +103,6 @@ def _length(length: float) -> Check:
     beyond = length_of(printed.HELICAL_ERROR)[2] - length
     return replace(
         check,
-        found=f"{check.found}. Either {beyond:.0f} mm beyond the end of tube and routing were counted, or the "
-        "percentage is of another length",
+        found=f"{check.found}. Either {beyond:.0f} mm beyond the end of tube and routing were counted, or "
+        "the percentage is of another length",
     )

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 AWAY = 11.0  # points from the tip
+FINER = 5  # points of lines that are looked at, for each that is drawn
 APART = 10.0  # pixels between a name and another tip
 DIRECTIONS = np.radians(np.arange(0, 360, 45))
 
@@ -16,7 +17,9 @@ def name_tips(axes: Any, named: Sequence[tuple[str, np.ndarray]], lines: np.ndar
     """Write every name beside its point (2,), in data units, where it covers least: points of lines
     (k, 2), other names, other tips. The axes have their place and limits before."""
     axes.apply_aspect()
-    covered = axes.transData.transform(lines)
+    between = np.linspace(0.0, len(lines) - 1.0, FINER * len(lines))
+    finer = np.column_stack([np.interp(between, np.arange(len(lines)), lines[:, k]) for k in (0, 1)])
+    covered = axes.transData.transform(finer)
     renderer = axes.figure.canvas.get_renderer()
     inside = axes.get_window_extent(renderer)
     tips = axes.transData.transform([point for _, point in named]) if named else np.empty((0, 2))
@@ -43,7 +46,7 @@ def _written(axes: Any, name: str, point: np.ndarray, angle: float) -> Any:
 
 def _cost(box: Any, covered: np.ndarray, others: np.ndarray, taken: Sequence[Any], inside: Any) -> float:
     """How bad a place is: lines under it, other tips beside it, names under it, outside the axes."""
-    hidden, mistaken = _count(box, covered, 0.0), _count(box, others, APART)
+    hidden, mistaken = _count(box, covered, 2.0), _count(box, others, APART)
     beyond = box.x0 < inside.x0 or box.x1 > inside.x1 or box.y0 < inside.y0 or box.y1 > inside.y1
     return hidden + 20.0 * mistaken + 100.0 * sum(map(box.overlaps, taken)) + (1.5 if beyond else 0.0)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import re
 from collections.abc import Callable
 from html import escape
 from importlib.resources import files
@@ -33,6 +32,8 @@ AXES = (
     "World axes: z along the guide, which the robot leaves at z = 0. Tendon angles are from +X. "
     "Lengths in mm."
 )
+
+SHORT = 16  # letters of a cell that is not broken
 
 
 def save(
@@ -116,7 +117,7 @@ def _html_cell(text: str) -> str:
     style = {"holds": "holds", "fitted": "fitted", "does not hold": "fails", "cannot be checked": "open"}.get(
         text
     )
-    kind = f" class={style}" if style else " class=number" if re.fullmatch(r"[-\d. (|)]+", text) else ""
+    kind = f" class={style}" if style else " class=short" if max(map(len, text.split("\n"))) <= SHORT else ""
     return f"<td{kind}>{escape(first)}{f'<small>{escape(remark)}</small>' if remark else ''}</td>"
 
 
@@ -132,9 +133,12 @@ def _markdown(experiments: tuple[Experiment, ...]) -> str:
 
 def _markdown_table(table: Table) -> str:
     rows = [table.head, ("---",) * len(table.head), *table.rows]
-    lines = ["| " + " | ".join(_markdown_cell(text) for text in row) + " |" for row in rows]
+    lines = [
+        "| " + " | ".join(_markdown_cell(text, first=not k) for k, text in enumerate(row)) + " |"
+        for row in rows
+    ]
     return "\n\n".join(part for part in (f"### {table.title}", table.note, "\n".join(lines)) if part)
 
 
-def _markdown_cell(text: str) -> str:
-    return text.replace("|", "/").replace("\n", ": ")
+def _markdown_cell(text: str, *, first: bool) -> str:
+    return text.replace("|", "/").replace("\n", ": " if first else " ")

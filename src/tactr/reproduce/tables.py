@@ -133,7 +133,7 @@ def _effects(experiment: Experiment) -> Table:
 def _move(move: Move) -> str:
     if move.first_order is None:
         return mm(move.more)
-    return f"{mm(move.first_order)} ({mm(move.less)} | {mm(move.more)})"
+    return f"{mm(move.first_order)}\n({mm(move.less)} | {mm(move.more)})"
 
 
 def mm(length: float | None) -> str:

@@ -74,6 +74,6 @@ def _checks(robot: Robot, cases: tuple[Case, ...]) -> tuple[Check, ...]:
 def _length() -> str:
     least, most, middle = length_of(printed.TACTER_ERROR)
     return (
-        f"The robot's length, {middle:.1f} mm ({least:.1f} to {most:.1f}), follows from the printed mm and per "
-        "cent."
+        f"The robot's length, {middle:.1f} mm ({least:.1f} to {most:.1f}), follows from the printed mm and "
+        "per cent."
     )

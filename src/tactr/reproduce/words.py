@@ -47,7 +47,7 @@ def section(tube: Tube) -> str:
     if isinstance(found, Rod):
         return f"{1e3 * found.diameter:.4g} mm, solid"
     if isinstance(found, Stiffness):
-        x, y, torsion = (f"{1e6 * value:.4g}" for value in (found.EI_x, found.EI_y, found.GJ))
+        x, y, torsion = (f"{1e6 * value:.5g}" for value in (found.EI_x, found.EI_y, found.GJ))
         return f"EI {x}, {y}, GJ {torsion} N mm²"
     return type(found).__name__
 
