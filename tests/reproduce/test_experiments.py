@@ -171,3 +171,9 @@ def test_rigid_disks_on_the_rod(reproduction):
     share = 1 - float(printed.ROD_COVERED) / float(printed.ROD_FREE)
     assert f"{255 * share:.1f} GPa" in text
     assert f"{98 * share:.1f} GPa" in text
+
+
+def test_poisson_s_ratios(reproduction):
+    """G = E / (2 (1 + nu)): 45 / 33.82 - 1 and 215 / 160 - 1."""
+    (text,) = [words for words in reproduction["two_tubes"].findings if "Poisson" in words]
+    assert "0.33 (outer tube), 0.34 (inner tube)" in text

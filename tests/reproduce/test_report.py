@@ -30,7 +30,7 @@ class Page(HTMLParser):
         self.close()
 
     def handle_starttag(self, tag, attrs):
-        found = dict(attrs)
+        found = {name: value or "" for name, value in attrs}
         if tag not in EMPTY:
             self.open.append(tag)
         self.links += [found[name] for name in ("href", "src") if name in found]

@@ -11,6 +11,7 @@ from tactr.reproduce.records import Case, Check, Drawn, Experiment, Panel, View,
 from tactr.reproduce.steel_tube import fits, replaced, with_fitted_steel
 from tactr.robot import Robot
 from tactr.statics import solve
+from tactr.statics.parameters import value_of
 
 SETTING = (
     "Nitinol outer tube of 140 mm, stainless steel inner tube of 180 mm, a tendon to the tip of each. Drawn "
@@ -42,6 +43,7 @@ def run() -> Experiment:
         _checks(cases, robots["0"]),
         effects(cases, replaced()),
         fits=fits(),
+        findings=_findings(robots["0"]),
         replaced=replaced(),
     )
 
@@ -92,3 +94,18 @@ def _bends(cases: tuple[Case, ...]) -> Check:
 def _turn(case: Case):
     before = solve(case.robot, tension={"inner": 0.0})
     return (case.shape.tip_position - before.tip_position)[:2] + 0.0
+
+
+def _findings(robot: Robot) -> tuple[str, ...]:
+    ratios = ", ".join(f"{_poisson(robot, tube.name):.2f} ({tube.name} tube)" for tube in robot.tubes)
+    error = printed.TWO_TUBE_ERRORS["0"].mm
+    return (
+        f"The paper does not say whether the {printed.TWO_TUBE_DISPLACEMENT} mm are measured or its model's. "
+        f"The table of fits shows what {error} mm less and more, its tip error, do to the fitted numbers.",
+        f"The printed E and G fit isotropic materials: Poisson's ratio {ratios}.",
+    )
+
+
+def _poisson(robot: Robot, tube: str) -> float:
+    E, G = (value_of(robot, f"tubes.{tube}.material.{name}") for name in "EG")
+    return E / (2 * G) - 1
