@@ -33,6 +33,11 @@ def test_every_experiment_is_there_and_solved(reproduction):
         reproduction["ctrs"]
 
 
+def test_what_was_chosen_for_a_number_is_not_said_to_hold(reproduction):
+    fitted = {each.key: each.count("fitted") for each in reproduction.experiments}
+    assert {key: count for key, count in fitted.items() if count} == {"two_tubes": 1, "ctr": 1, "tacter": 2}
+
+
 def test_only_the_helical_percentage_fails(reproduction):
     failed = {each.key: each.count("does not hold") for each in reproduction.experiments}
     assert failed == {key: 2 if key == "helical" else 0 for key in KEYS}

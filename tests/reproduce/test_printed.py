@@ -74,3 +74,5 @@ def test_the_length_behind_an_error():
 )
 def test_percentages(error, length, verdict):
     assert percentage(error, length, "").verdict == verdict
+    derived = percentage(error, length, "", derived=True)
+    assert derived.verdict == ("fitted" if verdict == "holds" else verdict)

@@ -16,12 +16,18 @@ def length_of(error: PrintedError) -> tuple[float, float, float]:
     return least, most, 100 * mm / percent
 
 
-def percentage(error: PrintedError, length: float, what: str) -> Check:
-    """Whether an error's mm and per cent agree for a length (mm)."""
+def percentage(error: PrintedError, length: float, what: str, *, derived: bool = False) -> Check:
+    """Whether an error's mm and per cent agree for a length (mm).
+
+    derived: the length is not printed, and was taken from them.
+    """
     least, most, _ = length_of(error)
     share = 100 * float(error.mm) / length
+    agree = verdict(least <= length <= most)
+    source = "; the length is not printed and was chosen for it" if derived else ""
     return Check(
         f"{what}: {error.mm} mm is {error.percent} % of the length",
-        f"of {length:g} mm it is {share:.2f} %; as printed, the length is {least:.1f} to {most:.1f} mm",
-        verdict(least <= length <= most),
+        f"of {length:g} mm it is {share:.2f} %; as printed, the length is {least:.1f} to {most:.1f} mm"
+        f"{source}",
+        "fitted" if derived and agree == "holds" else agree,
     )

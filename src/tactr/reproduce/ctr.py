@@ -39,6 +39,7 @@ def run() -> Experiment:
         "the outer.",
         _checks(robot, cases),
         effects(cases),
+        findings=(_half_way(cases),),
         printed=f"{printed.CTR_ERRORS[0].mm} to {printed.CTR_ERRORS[1]}",
     )
 
@@ -48,7 +49,6 @@ def _checks(robot: Robot, cases: tuple[Case, ...]) -> tuple[Check, ...]:
     counts = [len(branches(case.robot)) for case in cases]
     return (
         _mirror(robot),
-        _half_way(cases),
         Check(
             "All five alignments were held, none snapped",
             f"equilibria found at each angle: {', '.join(map(str, counts))}; all stable: no snap at this "
@@ -57,7 +57,7 @@ def _checks(robot: Robot, cases: tuple[Case, ...]) -> tuple[Check, ...]:
                 all(count == 1 for count in counts) and all(case.shape.stability.stable for case in cases)
             ),
         ),
-        percentage(most, 1e3 * max(tube.tip for tube in robot.tubes), "Largest error"),
+        percentage(most, 1e3 * max(tube.tip for tube in robot.tubes), "Largest error", derived=True),
         Check(
             f"Tip errors of {least.mm} to {most.mm} mm", "measured shapes are not public", "cannot be checked"
         ),
@@ -79,14 +79,13 @@ def _mirror(robot: Robot) -> Check:
     )
 
 
-def _half_way(cases: tuple[Case, ...]) -> Check:
-    """A balanced pair bends in the plane half way between its tubes; bent along -y at 0."""
+def _half_way(cases: tuple[Case, ...]) -> str:
+    """How far from half way between its tubes, of which the outer one bends along -y, the pair bends."""
     off = []
     for case, angle in list(zip(cases, printed.CTR_ANGLES, strict=True))[1:-1]:
         x, y, _ = case.shape.tip_position
-        off.append(math.degrees(math.atan2(x, -y)) - angle / 2)
-    return Check(
-        "A pair of nearly equal stiffness bends half way between its tubes",
-        f"the tip's direction is off by {', '.join(f'{value:+.2f}°' for value in off)} at 45, 90 and 135°",
-        verdict(max(map(abs, off)) < 1.0),
+        off.append(abs(math.degrees(math.atan2(x, -y)) - angle / 2))
+    return (
+        "The assumed pair of equal curvatures bends half way between its tubes, to within "
+        f"{max(off):.1f}°, as a stiffness ratio near 1 lets expect."
     )
