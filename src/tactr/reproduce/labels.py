@@ -9,7 +9,7 @@ import numpy as np
 
 AWAY = 11.0  # points from the tip
 FINER = 5  # points of lines that are looked at, for each that is drawn
-APART = 10.0  # pixels between a name and another tip
+APART = 18.0  # pixels between a name and another tip
 DIRECTIONS = np.radians(np.arange(0, 360, 45))
 
 
@@ -46,7 +46,7 @@ def _written(axes: Any, name: str, point: np.ndarray, angle: float) -> Any:
 
 def _cost(box: Any, covered: np.ndarray, others: np.ndarray, taken: Sequence[Any], inside: Any) -> float:
     """How bad a place is: lines under it, other tips beside it, names under it, outside the axes."""
-    hidden, mistaken = _count(box, covered, 2.0), _count(box, others, APART)
+    hidden, mistaken = _count(box, covered, 4.0), _count(box, others, APART)
     beyond = box.x0 < inside.x0 or box.x1 > inside.x1 or box.y0 < inside.y0 or box.y1 > inside.y1
     return hidden + 20.0 * mistaken + 100.0 * sum(map(box.overlaps, taken)) + (1.5 if beyond else 0.0)
 

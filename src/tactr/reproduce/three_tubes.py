@@ -79,7 +79,7 @@ def _findings(cases: tuple[Case, ...]) -> tuple[str, ...]:
     return (
         f"The rod's moduli were raised because disks cover {printed.ROD_COVERED} of {printed.ROD_FREE} mm. "
         "If the covered part did not bend at all, the rest of the rod would have "
-        f"E = {share * E:.1f} GPa and G = {share * G:.1f} GPa: near usual values of stainless steel (about 193 "
-        "and 75), below those printed for the steel tube (215 and 80).",
+        f"E = {share * E:.1f} GPa and G = {share * G:.1f} GPa: near usual values of stainless steel "
+        "(about 193 and 75), below those printed for the steel tube (215 and 80).",
         published_conditions(cases[-1].shape),
     )
