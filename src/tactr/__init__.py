@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tactr import examples, materials, reference
+    from tactr import examples, materials, reference, reproduce
     from tactr.calibration import Calibration, Frame, Measurements, Parameter, calibrate
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
     from tactr.io import load, save
@@ -112,7 +112,7 @@ _HOME = {
     ),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
-_SUBMODULES = ("examples", "materials", "reference")
+_SUBMODULES = ("examples", "materials", "reference", "reproduce")
 
 __version__ = "0.1.0"
 __all__ = [
@@ -169,6 +169,7 @@ __all__ = [
     "load",
     "materials",
     "reference",
+    "reproduce",
     "rest_lengths",
     "save",
     "solve",

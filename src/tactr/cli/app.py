@@ -10,6 +10,7 @@ from cyclopts import App, Parameter
 from tactr import __version__
 
 DEFAULT_EXAMPLE = "two_tube_90"
+DEFAULT_REPORT = "reproduction"
 
 
 app = App(name="tactr", version=__version__, help_flags=[], default_parameter=Parameter(negative=()))
@@ -122,3 +123,11 @@ def examples(name: str | None = None, /) -> int:
     from tactr.cli.examples import run_examples
 
     return run_examples(name)
+
+
+@app.command
+def reproduce(*, out: Path = Path(DEFAULT_REPORT)) -> int:
+    """Solve every experiment of the paper and write a report."""
+    from tactr.cli.reproduce import run_reproduce
+
+    return run_reproduce(out)

@@ -11,6 +11,7 @@ Usage: tactr COMMAND [ARGUMENTS]
   check FILE...      check robot files without solving
   schema             print the JSON Schema of robot files, for editors
   examples [NAME]    list the built-in example robots, or print one
+  reproduce          solve every experiment of the paper and write a report
 
   COMMAND --help     all options of a command
   --version          the version of tactr
@@ -109,4 +110,24 @@ Usage: tactr examples [NAME]
   tactr examples two_tube_90 > my_robot.yaml
 """
 
-COMMANDS = {"solve": SOLVE, "calibrate": CALIBRATE, "check": CHECK, "schema": SCHEMA, "examples": EXAMPLES}
+REPRODUCE = """\
+tactr reproduce: solve every experiment of the paper and write a report
+
+Usage: tactr reproduce [OPTIONS]
+
+  --out FOLDER   where report.html and report.md go; made if it is missing; default reproduction
+
+The report shows the model's shapes, what was assumed and how much that matters, and which of the paper's
+statements can be checked without its measurements. Needs the extra: plot.
+
+Exit code 2: the report cannot be written, or matplotlib is missing.
+"""
+
+COMMANDS = {
+    "solve": SOLVE,
+    "calibrate": CALIBRATE,
+    "check": CHECK,
+    "schema": SCHEMA,
+    "examples": EXAMPLES,
+    "reproduce": REPRODUCE,
+}

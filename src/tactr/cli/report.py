@@ -23,7 +23,7 @@ def print_report(shape: Shape, written: Sequence[Path] = ()) -> None:
     print(f"{_styled(robot.name or 'robot', BOLD)}: {_contents(robot)}\n")
     for table in (_tip(shape), _tubes(robot), _tendons(shape)):
         if len(table) > 1:
-            print(_aligned(table) + "\n")
+            print(aligned(table) + "\n")
     print(
         f"{_styled('converged', GREEN)} in {_count(shape.iterations, 'iteration')},"
         f" {shape.solve_time * 1e3:.3g} ms: residual {shape.residual:.1e},"
@@ -104,7 +104,7 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}" if number else f"no {noun}s"
 
 
-def _aligned(rows: Sequence[Sequence[str]]) -> str:
+def aligned(rows: Sequence[Sequence[str]]) -> str:
     """Rows as text, the first column to the left, the others to the right; the first row is the head."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
