@@ -364,7 +364,8 @@ NB_MODULE(_core, m) {
         .def_ro("steps_marched", &tactr::Solution::steps_marched)
         .def_ro("base_residual", &tactr::Solution::base_residual)
         .def_ro("section_residual", &tactr::Solution::section_residual)
-        .def_ro("discretisation_error", &tactr::Solution::discretisation_error)
+        .def_prop_ro("discretisation_error",
+                     [](const tactr::Solution& s) { return tactr::larger(s.discretisation_error, s.length_error); })
         .def_ro("least_stretch", &tactr::Solution::least_stretch)
         .def_ro("shortest_tendon", &tactr::Solution::shortest_tendon)
         .def_ro("base_determinant", &tactr::Solution::base_determinant)

@@ -60,6 +60,7 @@ class March {
     BaseState<T> base;
     std::vector<double> section_error;  // per section, metres at the tip
     std::vector<double> edge_error;     // of every section's first and last step
+    std::vector<double> length_error;   // per section, m: the largest of its tendons', when options.path and error_weight
     std::vector<double> tendon_length;  // per tendon, when options.path
     std::vector<T> moving_length;       // the same, when lengths_move
 
@@ -119,6 +120,10 @@ class March {
     }
 
   private:
+    struct LengthEstimate {
+        double fifth = 0.0, third = 0.0;
+    };
+    std::vector<LengthEstimate> length_estimate_;  // of one step, per tendon hosted
     Strains last_;  // strains of the nearest point solved so far
 
     void start(const FreeEnd<T>& free_end, int sections) {
@@ -128,7 +133,9 @@ class March {
         solver.begin();
         section_error.assign(sections, 0.0);
         edge_error.assign(2 * static_cast<size_t>(sections), 0.0);
+        length_error.assign(sections, 0.0);
         if (options.path) tendon_length.assign(robot.tendon_count, 0.0);
+        if (estimates_lengths()) length_estimate_.resize(layout.max_hosted);
         if (lengths_move) moving_length.assign(robot.tendon_count, T(0.0));
     }
 
@@ -253,6 +260,7 @@ class March {
             if (!run_stages(section, k_section, s, h, before, mesh, stage, warm, observer)) return false;
             const double error_before = section_error[k_section];
             advance(h, before, section_error[k_section]);
+            if (estimates_lengths()) length_error[k_section] += largest_length_error(section, value(h));
             if (step == 0) edge_error[2 * k_section] = section_error[k_section] - error_before;
             if (step + 1 == steps) edge_error[2 * k_section + 1] = section_error[k_section] - error_before;
             if constexpr (!std::is_same_v<Observer, NoObserver>) observer(*this, k_section, before, s, h);
@@ -291,10 +299,10 @@ class March {
         const std::vector<double> saved_length = tendon_length;
         NoObserver nobody;
         for (int attempt = 0;; ++attempt) {
-            section_error[k_section] = 0.0;
+            section_error[k_section] = length_error[k_section] = 0.0;
             mesh.strains.resize(static_cast<size_t>(mesh.steps[k_section]) * dp8::STAGES);
             const bool solved = march_section(section, k_section, mesh, 0, false, nobody);
-            const double error = section_error[k_section];
+            const double error = larger(section_error[k_section], length_error[k_section]);
             if (solved && error <= adapt_tolerance) return true;
             if (attempt == 6 || mesh.steps[k_section] >= MAX_STEPS) return solved;
             double factor = solved && std::isfinite(error) ? std::ceil(1.1 * std::pow(error / adapt_tolerance, 0.125)) : 4.0;
@@ -321,6 +329,7 @@ class March {
             }
             if (!derivative(section, s + h * dp8::C[i], z, k[i], e)) return false;
             if (options.path) add_lengths(section, -value(h) * dp8::B[i]);
+            if (estimates_lengths()) add_length_estimates(section, i);
             if (lengths_move) add_moving_lengths(section, h * -dp8::B[i]);
             if constexpr (SeesStages<Observer>::value)
                 observer.stage(*this, section, k_section, value(s + h * dp8::C[i]), -value(h) * dp8::B[i]);
@@ -342,6 +351,12 @@ class March {
         for (int c = 0; c < 4; ++c) q[c] = q[c] * inverse;
     }
 
+    /// From the squares of the estimates of order 5 and 3 to a factor on the former.
+    static double damping_of(double square5, double square3) {
+        const double size = square5 + 0.01 * square3;
+        return size > 0.0 ? std::sqrt(square5 / size) : 0.0;
+    }
+
     /// Embedded estimates of order 5 and 3, combined to one of about order 8 (Hairer et al., section II.10).
     void add_error(double h, double& total) {
         static constexpr SparseRow FIFTH(dp8::E5, dp8::STAGES), THIRD(dp8::E3, dp8::STAGES);
@@ -355,8 +370,7 @@ class March {
             norm5 += w5 * w5;
             norm3 += w3 * w3;
         }
-        const double size = norm5 + 0.01 * norm3;
-        const double damping = size > 0.0 ? std::sqrt(norm5 / size) : 0.0;
+        const double damping = damping_of(norm5, norm3);
         total += std::fabs(h) * std::sqrt(norm5) * damping;
         if constexpr (LANES > 0)
             if (error_lane >= 0)
@@ -366,6 +380,27 @@ class March {
     void add_lengths(const Section<P>& section, double weight) {
         for (int h = section.hosted.begin; h < section.hosted.end; ++h)
             tendon_length[layout.hosted[h].tendon] += weight / solver.tendon_tangents[h - section.hosted.begin].inverse;
+    }
+
+    /// A tendon's length is an integral that nothing else depends on: its error is not among those of the states.
+    bool estimates_lengths() const { return options.path && error_weight; }
+
+    void add_length_estimates(const Section<P>& section, int stage) {
+        for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
+            if (stage == 0) length_estimate_[h] = LengthEstimate{};
+            const double rate = 1.0 / solver.tendon_tangents[h].inverse;
+            length_estimate_[h].fifth += dp8::E5[stage] * rate;
+            length_estimate_[h].third += dp8::E3[stage] * rate;
+        }
+    }
+
+    double largest_length_error(const Section<P>& section, double h) const {
+        double worst = 0.0;
+        for (int j = 0; j < section.hosted.end - section.hosted.begin; ++j) {
+            const double fifth = length_estimate_[j].fifth, third = length_estimate_[j].third;
+            worst = larger(worst, std::fabs(h * fifth) * damping_of(fifth * fifth, third * third));
+        }
+        return worst;
     }
 
     void add_moving_lengths(const Section<P>& section, const P& weight) {

@@ -26,6 +26,9 @@ void NewtonSolver::read_tip(Solution& solution, const M& march, const FreeEnd<T>
     solution.discretisation_error = regular && std::isfinite(error) ? ERROR_SAFETY * std::sqrt(error) : UNKNOWN_ERROR;
     section_error_ = march.section_error;
     edge_error_ = march.edge_error;
+    length_error_ = march.length_error;
+    solution.length_error = 0.0;
+    for (double error_here : length_error_) solution.length_error += ERROR_SAFETY * error_here;
     solution.tendon_length = march.tendon_length;
 }
 

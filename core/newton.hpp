@@ -28,8 +28,16 @@ class NewtonSolver {
     void start_straight(Solution& solution) const {
         for (int i = 0; i < robot.tube_count; ++i) solution.free_end.psi[i] = actuation.rotation[i];
         for (int c = 0; c < 4; ++c) solution.free_end.quaternion[c] = c == 0;
-        solution.mesh.cut(layout.sections.size(), 1);
+        cut_mesh(solution);
         solution.mesh.fit();
+    }
+
+    /// The coarsest mesh: one step a section, but no step along which a tendon winds so far that the errors' estimates miss it.
+    void cut_mesh(Solution& solution) const {
+        constexpr double MOST_WINDING = 4.0;  // rad
+        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        for (size_t k = 0; k < layout.sections.size() && settings.fixed_steps == 0; ++k)
+            solution.mesh.steps[k] = std::max(1, static_cast<int>(std::ceil(layout.sections[k].winding / MOST_WINDING)));
     }
 
     /// Takes over a neighbour's free end, mesh and derivatives. False: it is no neighbour.
@@ -48,7 +56,7 @@ class NewtonSolver {
 
     /// One plain march chooses the steps, starting from one a section.
     void choose_mesh(Solution& solution) {
-        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        cut_mesh(solution);
         add_steps(solution);
     }
 
@@ -69,7 +77,7 @@ class NewtonSolver {
     /// As choose_mesh; then moves the free end by the angles at which that march missed the base.
     void choose_mesh_and_wind(Solution& solution) {
         BaseState<double> base;
-        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        cut_mesh(solution);
         if (!plain_march(solution, actuation, base)) return;
         double missed[MAX_UNKNOWNS];
         shooting.residual(base, actuation.rotation, missed);
@@ -81,7 +89,7 @@ class NewtonSolver {
         Actuation<double> unloaded = actuation;
         unloaded.load_scale = 0.0;
         BaseState<double> base;
-        solution.mesh.cut(layout.sections.size(), settings.fixed_steps > 0 ? settings.fixed_steps : 1);
+        cut_mesh(solution);
         if (plain_march(solution, unloaded, base)) shooting.upright(base, actuation.rotation[0], solution.free_end);
     }
 
@@ -122,7 +130,8 @@ class NewtonSolver {
         for (int round = 0; round < 8; ++round) {
             if (!newton(solution, settings.residual_tolerance, first)) return false;
             first = Kind::rough;
-            if (solution.discretisation_error <= allowed_error(solution) || settings.fixed_steps > 0) {
+            const bool fine = solution.discretisation_error <= allowed_error(solution) && solution.length_error <= settings.tolerance;
+            if (fine || settings.fixed_steps > 0) {
                 if (solution.least_stretch < LEAST_STRETCH) return fail(solution, Status::collapsed);
                 solution.status = Status::converged;
                 return true;
@@ -198,7 +207,7 @@ class NewtonSolver {
     static constexpr double UNKNOWN_ERROR = 1e300;
     static constexpr double ERROR_SAFETY = 2.0;  // the embedded estimate, carried to the tip, underrates the coarsest meshes
 
-    std::vector<double> section_error_, edge_error_;
+    std::vector<double> section_error_, edge_error_, length_error_;
 
     bool backtrack(Solution& solution, double* step, double size) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
@@ -242,14 +251,16 @@ class NewtonSolver {
     static constexpr double SINGLE_STEP_SHARE = 0.15;
 
     /// More steps, or better graded ones, where the error comes from: as many as an eighth-order rule needs to bring the
-    /// tip below tolerance.
+    /// tip and the tendons' lengths below tolerance.
     bool refine(Solution& solution, double allowed) {
-        double largest = 0.0;
-        for (double error : section_error_) largest = larger(largest, error);
-        const double ratio = solution.discretisation_error / (0.5 * allowed);
+        const auto share = [](const std::vector<double>& errors, size_t k, double sum) {
+            const double largest = *std::max_element(errors.begin(), errors.end());
+            return largest > 0.0 ? sum * errors[k] / largest : 0.0;
+        };
         bool finer = false;
         for (size_t k = 0; k < section_error_.size(); ++k) {
-            const double excess = ratio * section_error_[k] / largest;
+            const double excess = larger(share(section_error_, k, solution.discretisation_error / (0.5 * allowed)),
+                                         share(length_error_, k, solution.length_error / (0.5 * settings.tolerance)));
             if (!(excess > 0.5)) continue;
             const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
             const double first = edge_error_[2 * k], last = edge_error_[2 * k + 1];

@@ -32,6 +32,7 @@ struct Section {
     P proximal, distal;  // s
     int guided;          // 1: behind the guide exit, held straight
     int even;            // 1: all rates are the same along it, or it has no length
+    double winding;      // largest angle by which a tendon's routing winds along it, rad
     int active_count;
     int active[MAX_TUBES];  // tubes present, outermost first
     int piece[MAX_TUBES];   // their current TubePiece
@@ -216,6 +217,7 @@ class Cutter {
 
     void place_tendons(int k, Section<P>& section, Layout<P>& layout) const {
         section.hosted.begin = static_cast<int>(layout.hosted.size());
+        section.winding = 0.0;
         for (int j = 0; j < robot_.tendon_count; ++j) {
             const TendonOf<C>& tendon = robot_.tendons[j];
             const P& base = translation_[tendon.tube];
@@ -228,9 +230,21 @@ class Cutter {
                                  ? -1
                                  : piece_at(robot_.profiles, tendon.profile_begin, tendon.profile_end, base, k);
             layout.hosted.push_back(hosted);
+            section.winding = larger(section.winding, winding(robot_.routing[hosted.routing], value(breaks_.s[k] - base),
+                                                              value(breaks_.s[k + 1] - base)));
         }
         section.hosted.end = static_cast<int>(layout.hosted.size());
         layout.max_hosted = std::max(layout.max_hosted, section.hosted.end - section.hosted.begin);
+    }
+
+    static double winding(const RoutingPieceOf<C>& routing, double begin, double end) {
+        if (!routing.polar) return 0.0;
+        const auto angle = [&](double sigma) {
+            double sum = 0.0;
+            for (int i = routing.count_b - 1; i >= 0; --i) sum = sum * (sigma - value(routing.start)) + value(routing.b[i]);
+            return sum;
+        };
+        return std::fabs(angle(end) - angle(begin));
     }
 
     void place_loads(int k, Section<P>& section, Layout<P>& layout) const {

@@ -13,7 +13,7 @@ enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse =
 enum class StabilityFound { unchecked = 0, stable = 1, unstable = 2 };
 
 struct Settings {
-    double tolerance = 1e-6;           // discretisation error at the tip, m
+    double tolerance = 1e-6;           // discretisation error at the tip and of tendons' lengths, m
     double residual_tolerance = 1e-9;  // rad at the base
     int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
@@ -27,7 +27,8 @@ struct Solution {
     long steps_marched = 0;
     double base_residual = std::numeric_limits<double>::max();
     double section_residual = std::numeric_limits<double>::max();
-    double discretisation_error = std::numeric_limits<double>::max();
+    double discretisation_error = std::numeric_limits<double>::max();  // at the tip, m
+    double length_error = std::numeric_limits<double>::max();          // of any tendon's length, m
     double least_stretch = 1.0;
     double shortest_tendon = 1.0;  // least |q| of the last marches; near 0: a tendon at the centre of curvature
     double base_determinant = 0.0;  // of d(base)/d(free end)

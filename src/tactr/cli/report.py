@@ -27,7 +27,7 @@ def print_report(shape: Shape, written: Sequence[Path] = ()) -> None:
     print(
         f"{_styled('converged', GREEN)} in {_count(shape.iterations, 'iteration')},"
         f" {shape.solve_time * 1e3:.3g} ms: residual {shape.residual:.1e},"
-        f" discretisation error at the tip {shape.discretisation_error * 1e6:.2g} um"
+        f" discretisation error {shape.discretisation_error * 1e6:.2g} um"
     )
     if any(tendon.displacement is not None for tendon in robot.tendons):
         print(_pulled(shape))

@@ -60,8 +60,8 @@ def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
     if status in (Status.CONVERGED, Status.UNSTABLE):
         return (
             f"converged: base missed by {solution.base_residual:.1e} rad, section equilibrium to "
-            f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m "
-            f"at the tip{_remark(status, solution)}"
+            f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m"
+            f"{_remark(status, solution)}"
         )
     return _FAILURES[status].format(s=solution, tolerance=tolerance) if status in _FAILURES else ""
 
