@@ -33,8 +33,10 @@ if TYPE_CHECKING:
         Straight,
         SymmetricNotches,
         Tendon,
+        TendonLimits,
         TensionProfile,
         Tube,
+        TubeLimits,
         VaryingStiffness,
     )
     from tactr.statics import (
@@ -83,8 +85,10 @@ _HOME = {
         "Straight",
         "SymmetricNotches",
         "Tendon",
+        "TendonLimits",
         "TensionProfile",
         "Tube",
+        "TubeLimits",
         "VaryingStiffness",
     ),
     "tactr.statics": (
@@ -150,9 +154,11 @@ __all__ = [
     "SymmetricNotches",
     "TactrError",
     "Tendon",
+    "TendonLimits",
     "TendonShape",
     "TensionProfile",
     "Tube",
+    "TubeLimits",
     "TubeShape",
     "VaryingStiffness",
     "Work",
