@@ -1,0 +1,256 @@
+"""The robot in viser's scene: nodes made once for a robot, and changed in place when it moves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tactr.plotting.palette import GUIDE_COLOUR, mixed, tube_colour
+from tactr.robot import Robot
+from tactr.viewer.disks import RIM, most_disks, round_step, unit_disk
+from tactr.viewer.picture import FRAMES_PER_TUBE, Picture
+from tactr.viewer.settings import Settings
+from tactr.viewer.surface import swept_faces, vertex_count
+from tactr.viewer.walls import STATIONS, Wall
+
+PER_METRE = 10.0
+"""Units of the scene: a tenth of a metre each, because cameras like sizes near one."""
+
+ROOT = "/robot"
+GREYED, NESTED_OPACITY = "#b5b5b5", 0.72
+TRACE_COLOUR, MEASURED_COLOUR = (30, 30, 30), (0, 0, 0)
+HIDDEN = 1e-6  # scale of a disk that is not there
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    """ "#rrggbb" as numbers."""
+    r, g, b = (int(colour[k : k + 2], 16) for k in (1, 3, 5))
+    return r, g, b
+
+
+def linear(colours: np.ndarray) -> np.ndarray:
+    """Colours of lines as viser shows them right: it takes those at points for linear light (IEC 61966-2-1)."""
+    return (255.0 * ((colours / 255.0 + 0.055) / 1.055) ** 2.4).round().astype(np.uint8)
+
+
+class Scene:
+    """Nodes for one robot after the other."""
+
+    def __init__(self, server: Any) -> None:
+        self._scene = server.scene
+        self._walls: list[Any] = []
+        self._threads: list[Any] = []
+        self._ghosts: list[Any] = []
+        self._measured: list[Any] = []
+        self._greyed = False
+
+    def build(self, robot: Robot) -> None:
+        """Nodes for a robot, empty until there is a picture of it."""
+        scene, self._robot = self._scene, robot
+        scene.add_frame(ROOT, show_axes=False)  # takes the nodes of the robot before away
+        self._greyed = False
+        nothing = np.zeros((vertex_count(STATIONS), 3))
+        faces = swept_faces(STATIONS)
+        colours = [rgb(tube_colour(k)) for k in range(len(robot.tubes))]
+        self._walls = [
+            scene.add_mesh_simple(
+                f"{ROOT}/tubes/{k}_{'nested' if nested else 'bare'}", nothing, faces, color=colours[k],
+                opacity=NESTED_OPACITY if nested else None, visible=False, side="double",
+                cast_shadow=False, receive_shadow=False,
+            )
+            for k in range(len(robot.tubes)) for nested in (True, False)
+        ]  # fmt: skip
+        self._ghosts = [
+            scene.add_mesh_simple(
+                f"{ROOT}/rest/{k}_{part}", nothing, faces, color=(120, 120, 120), opacity=0.13,
+                visible=False, cast_shadow=False, receive_shadow=False,
+            )
+            for k in range(len(robot.tubes)) for part in (0, 1)
+        ]  # fmt: skip
+        line = np.zeros((1, 2, 3))
+        self._threads = [
+            scene.add_line_segments(
+                f"{ROOT}/tendons/{k}", line, line.astype(np.uint8), thickness=3.0, thickness_units="screen",
+                visible=False,
+            )
+            for k in range(len(robot.tendons))
+        ]  # fmt: skip
+        self._trace = scene.add_line_segments(
+            f"{ROOT}/trace", line, TRACE_COLOUR, thickness=2.0, thickness_units="screen", visible=False
+        )
+        self._transitions = scene.add_point_cloud(
+            f"{ROOT}/transitions", np.zeros((1, 3)), (20, 20, 20), point_size=0.014, point_shape="circle",
+            precision="float32", visible=False,
+        )  # fmt: skip
+        self._tip = scene.add_point_cloud(
+            f"{ROOT}/tip", np.zeros((1, 3)), (204, 0, 119), point_size=0.018, point_shape="circle",
+            precision="float32", visible=False,
+        )  # fmt: skip
+        self._arrows = scene.add_arrows(
+            f"{ROOT}/loads", line, np.zeros((1, 3), dtype=np.uint8), shaft_radius=0.012, head_radius=0.035,
+            head_length=0.09, visible=False,
+        )  # fmt: skip
+        self._add_disks(robot)
+        self._add_frames(robot)
+        self._add_surroundings(robot)
+
+    def _add_disks(self, robot: Robot) -> None:
+        self._most_disks = most_disks(robot)
+        self._disks = None
+        if self._most_disks:
+            vertices, faces = unit_disk()
+            count = self._most_disks
+            self._disks = self._scene.add_batched_meshes_simple(
+                f"{ROOT}/disks", vertices, faces, np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)),
+                batched_scales=np.full((count, 3), HIDDEN), batched_colors=(176, 184, 194), opacity=0.32,
+                lod="off", cast_shadow=False, receive_shadow=False, visible=False, side="double",
+            )  # fmt: skip
+
+    def _add_frames(self, robot: Robot) -> None:
+        count = FRAMES_PER_TUBE * len(robot.tubes)
+        self._frames = self._scene.add_batched_axes(
+            f"{ROOT}/frames", np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)), axes_length=0.1,
+            axes_radius=0.005, visible=False,
+        )  # fmt: skip
+
+    def _add_surroundings(self, robot: Robot) -> None:
+        """The guide, and a ground with its scale in mm."""
+        reach = max(tube.tip for tube in robot.tubes)
+        widest = guide_radius(robot)
+        depth = 0.35 * widest + 0.004
+        vertices, faces = unit_disk()
+        vertices = (vertices - [0, 0, 0.5]) * [widest, widest, depth]
+        self._scene.add_mesh_simple(
+            f"{ROOT}/guide", PER_METRE * vertices, faces, color=rgb(GUIDE_COLOUR), flat_shading=False,
+            cast_shadow=False, receive_shadow=False,
+        )  # fmt: skip
+        step = round_step(reach)
+        half = np.ceil(reach / (5 * step)) * 5 * step
+        ground = f"{ROOT}/ground"
+        self._ground = self._scene.add_frame(ground, show_axes=False, position=(0, 0, -PER_METRE * depth))
+        self._scene.add_grid(
+            f"{ground}/grid", 2 * PER_METRE * half, 2 * PER_METRE * half, cell_size=PER_METRE * step,
+            section_size=5 * PER_METRE * step, cell_color=(226, 226, 226), section_color=(196, 196, 196),
+            shadow_opacity=0.0, fade_distance=1e3,
+        )  # fmt: skip
+        for k, name in enumerate("xy"):
+            for place in np.arange(5 * step, half + step, 5 * step):
+                at = np.zeros(3)
+                at[k] = PER_METRE * place
+                last = place > half - step
+                text = f"{1e3 * place:.0f} mm" + (f"  {name}" if last else "")
+                self._scene.add_label(
+                    f"{ground}/{name}_{1e3 * place:.0f}", text, position=at, font_screen_scale=0.8,
+                    anchor="center-center", depth_test=False,
+                )  # fmt: skip
+        self._scene.add_frame(f"{ground}/axes", axes_length=0.25, axes_radius=0.006, origin_radius=0.008)
+
+    def update(self, drawn: Picture, settings: Settings) -> None:
+        """Show a picture."""
+        self._colour(greyed=False)
+        self._set_walls(self._walls, drawn.walls)
+        for node, thread in zip(self._threads, drawn.threads, strict=True):
+            if len(thread.segments):
+                node.points, node.colors = PER_METRE * thread.segments, linear(thread.colours)
+            node.visible = settings.tendons and len(thread.segments) > 0
+        self._set_points(self._transitions, drawn.transitions)
+        self._set_points(self._tip, drawn.tip[None])
+        if len(drawn.arrows):
+            self._arrows.points, self._arrows.colors = PER_METRE * drawn.arrows, drawn.arrow_colours
+        self._arrows.visible = settings.loads and len(drawn.arrows) > 0
+        self._set_disks(drawn, settings)
+        if settings.frames:
+            self._frames.batched_positions = PER_METRE * drawn.frame_position
+            self._frames.batched_wxyzs = drawn.frame_wxyz
+        self._frames.visible = settings.frames
+        self._ground.visible = settings.grid
+
+    def rest(self, walls: Sequence[Wall] | None) -> None:
+        """Show the rest shape, or none."""
+        if walls is None:
+            for node in self._ghosts:
+                node.visible = False
+        else:
+            self._set_walls(self._ghosts, walls)
+
+    def trace(self, points: np.ndarray | None) -> None:
+        """Show the way of the tip through points (n, 3), m; None or one point: no trace."""
+        shown = points is not None and len(points) > 1
+        if shown:
+            self._trace.points = PER_METRE * np.stack([points[:-1], points[1:]], axis=1)
+        self._trace.visible = bool(shown)
+
+    def measured(self, points: np.ndarray | None, gaps: np.ndarray | None) -> None:
+        """Show measured points (n, 3) m and their gaps (n, 2, 3) m to the shape; None: none."""
+        for node in self._measured:
+            node.remove()
+        self._measured = []
+        if points is not None:
+            cloud = self._scene.add_point_cloud(
+                "/measured/points", PER_METRE * points, MEASURED_COLOUR, point_size=0.03,
+                point_shape="diamond", precision="float32",
+            )  # fmt: skip
+            self._measured.append(cloud)
+        if gaps is not None:
+            lines = self._scene.add_line_segments(
+                "/measured/gaps", PER_METRE * gaps, (204, 0, 119), thickness=2.0, thickness_units="screen"
+            )
+            self._measured.append(lines)
+
+    def grey(self) -> None:
+        """Grey the shape that is shown, because it is not that of the state."""
+        self._colour(greyed=True)
+
+    def hide(self) -> None:
+        """Hide the robot: there is no shape yet."""
+        nodes = [*self._walls, *self._threads, *self._ghosts, self._transitions, self._tip, self._arrows]
+        for node in nodes:
+            node.visible = False
+
+    def _colour(self, *, greyed: bool) -> None:
+        if greyed == self._greyed:
+            return
+        self._greyed = greyed
+        for k, node in enumerate(self._walls):
+            colour = tube_colour(k // 2)
+            node.color = rgb(mixed(GREYED, colour, 0.12) if greyed else colour)
+        if greyed:
+            for node in self._threads:
+                node.colors = linear(np.full(node.points.shape, 170))
+
+    def _set_walls(self, nodes: Sequence[Any], walls: Sequence[Wall]) -> None:
+        for node, wall in zip(nodes, walls, strict=True):
+            if wall.length > 0:
+                node.vertices = PER_METRE * wall.vertices
+            node.visible = wall.length > 0
+
+    def _set_points(self, node: Any, points: np.ndarray) -> None:
+        if len(points):
+            node.points = PER_METRE * points
+        node.visible = len(points) > 0
+
+    def _set_disks(self, drawn: Picture, settings: Settings) -> None:
+        if self._disks is None:
+            return
+        count, found = self._most_disks, drawn.disks
+        shown = min(len(found.position), count)
+        position, sizes = np.zeros((count, 3)), np.full((count, 3), HIDDEN)
+        wxyz = np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
+        position[:shown] = PER_METRE * found.position[:shown]
+        sizes[:shown] = PER_METRE * found.sizes[:shown]
+        wxyz[:shown] = found.wxyz[:shown]
+        self._disks.batched_positions, self._disks.batched_wxyzs = position, wxyz
+        self._disks.batched_scales = sizes
+        self._disks.visible = settings.disks and shown > 0
+
+
+def guide_radius(robot: Robot) -> float:
+    """Radius of the guide drawn, m: round all tendons and tubes."""
+    offsets = [
+        float(np.hypot(*tendon.routing.r(max(0.0, -robot.tube(tendon.tube).translation))))
+        for tendon in robot.tendons
+    ]
+    tubes = [1.5 * (tube.outer_diameter or 2e-3) for tube in robot.tubes]
+    return RIM * 1.15 * max([*offsets, *tubes])
