@@ -60,6 +60,7 @@ if TYPE_CHECKING:
         solve,
         work,
     )
+    from tactr.viewer import View, show
 
 _HOME = {
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
@@ -112,6 +113,7 @@ _HOME = {
         "solve",
         "work",
     ),
+    "tactr.viewer": ("View", "show"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 _SUBMODULES = ("examples", "materials", "reference")
@@ -161,6 +163,7 @@ __all__ = [
     "TubeLimits",
     "TubeShape",
     "VaryingStiffness",
+    "View",
     "Work",
     "branches",
     "examples",
@@ -170,6 +173,7 @@ __all__ = [
     "reference",
     "rest_lengths",
     "save",
+    "show",
     "solve",
     "work",
 ]

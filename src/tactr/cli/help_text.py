@@ -6,6 +6,7 @@ tactr: the shape of tendon-actuated concentric tube robots
 Usage: tactr COMMAND [ARGUMENTS]
 
   solve [FILE]       compute the shape of a robot and report it
+  view [FILE]        show a robot in the browser, where everything can be moved
   check FILE...      check robot files without solving
   schema             print the JSON Schema of robot files, for editors
   examples [NAME]    list the built-in example robots, or print one
@@ -13,10 +14,12 @@ Usage: tactr COMMAND [ARGUMENTS]
   COMMAND --help     all options of a command
   --version          the version of tactr
 
-FILE is a robot file (.yaml, .toml) or the name of a built-in example; without it, solve takes two_tube_90.
+FILE is a robot file (.yaml, .toml) or the name of a built-in example; without it, solve and view take
+two_tube_90.
 
   tactr solve --tension outer=3 inner=2 --plot shape.png
   tactr solve my_robot.yaml --rotation inner="90 deg" --save shape.nc
+  tactr view my_robot.yaml
   tactr examples two_tube_90 > my_robot.yaml
 
 Exit codes: 0 done; 2 something is wrong with the input, or no equilibrium was found (the message says which
@@ -49,6 +52,20 @@ Usage: tactr solve [FILE] [OPTIONS]
 Exit code 2: something is wrong with the input, or no equilibrium was found.
 """
 
+VIEW = """\
+tactr view: show a robot in the browser, where everything can be moved
+
+Usage: tactr view [FILE] [OPTIONS]
+
+  FILE           a robot file (.yaml, .toml) or the name of a built-in example; default two_tube_90
+
+  --port NUMBER  where to serve the page; default: the first free port from 8080 on
+  --no-browser   do not open a browser: only say where the page is
+
+The page is served on this machine only (127.0.0.1) and asks no other for anything. Closing it ends the command,
+as does Ctrl-C. Needs the extra view: pip install 'tactr[view]'
+"""
+
 CHECK = """\
 tactr check: check robot files without solving; every problem is listed with its line
 
@@ -75,4 +92,4 @@ Usage: tactr examples [NAME]
   tactr examples two_tube_90 > my_robot.yaml
 """
 
-COMMANDS = {"solve": SOLVE, "check": CHECK, "schema": SCHEMA, "examples": EXAMPLES}
+COMMANDS = {"solve": SOLVE, "view": VIEW, "check": CHECK, "schema": SCHEMA, "examples": EXAMPLES}

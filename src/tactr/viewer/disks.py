@@ -15,6 +15,9 @@ MOST, RIM, THICKNESS = 16, 1.12, 0.02
 """Disks along the longest tube; their radius over the offset of the tendon; their thickness over it."""
 
 
+Places = list[tuple[int, float, float]]
+
+
 @dataclass(frozen=True, repr=False, eq=False)
 class Disks:
     """Unit disks to be turned by wxyz (n, 4), scaled by sizes (n, 3) m and moved to position (n, 3) m."""
@@ -36,7 +39,7 @@ def spacing(robot: Robot) -> float:
     return round_step(max(tube.length for tube in robot.tubes))
 
 
-def disk_places(robot: Robot) -> list[tuple[int, float, float]]:
+def disk_places(robot: Robot) -> Places:
     """Host tube, arc length s (m) and offset of the outermost tendon (m) of every disk."""
     names, step = [tube.name for tube in robot.tubes], spacing(robot)
     # counted from the tip of the host: its last disk is at its end, and all move with it
@@ -69,7 +72,7 @@ def host_at(robot: Robot, tendon: Tendon, own: int, s: float) -> int:
     return next((k for k, tube in enumerate(robot.tubes) if tube.tip >= s - 1e-12), own)
 
 
-def disks(fine: Shape, places: list[tuple[int, float, float]]) -> Disks:
+def disks(fine: Shape, places: Places) -> Disks:
     """The disks of a shape sampled at their places or more."""
     count = len(places)
     position, frames = np.zeros((count, 3)), np.zeros((count, 3, 3))

@@ -30,10 +30,10 @@ class LatestWins(Generic[T]):
             self._waiting = [item]
             self._changed.notify_all()
 
-    @property
-    def pending(self) -> bool:
-        """Whether something newer waits."""
-        return bool(self._waiting)
+    def newer_within(self, timeout: float) -> bool:
+        """Whether something newer waits, or comes within a time in s."""
+        with self._changed:
+            return self._changed.wait_for(lambda: bool(self._waiting), timeout)
 
     def wait(self, timeout: float | None = None) -> bool:
         """Until nothing waits and nothing is being done; False where that takes longer."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from time import perf_counter
-from typing import Any
 
 from tactr.viewer.camera import first_look
 from tactr.viewer.picture import picture
 from tactr.viewer.scene import PER_METRE, Scene
+from tactr.viewer.server import make_server, stop_server
 from tactr.viewer.session import Outcome
 from tactr.viewer.settings import Settings
 
@@ -57,13 +57,10 @@ class Recorder:
 
 
 def motion_html(
-    frames: Sequence[tuple[float, Outcome]],
-    server: Callable[[], Any],
-    settings: Settings,
-    most_tension: float,
+    frames: Sequence[tuple[float, Outcome]], settings: Settings, most_tension: float
 ) -> str:
-    """A standalone HTML page that plays frames; server: makes a viser server without clients, stopped here."""
-    stage = server()
+    """A standalone HTML page that plays frames. It is recorded from a server of its own, without a page."""
+    stage = make_server()
     try:
         scene = Scene(stage)
         shape = frames[0][1].shape
@@ -84,12 +81,17 @@ def motion_html(
                 drawn = _show(scene, outcome, settings, most_tension)
         return recording.as_html()
     finally:
-        stage.stop()
+        stop_server(stage)
 
 
 def _show(scene: Scene, outcome: Outcome, settings: Settings, most_tension: float) -> Outcome:
     assert outcome.shape is not None
-    drawn = picture(outcome.shape, diameter_scale=settings.diameter_scale, most_tension=most_tension)
+    drawn = picture(
+        outcome.shape,
+        diameter_scale=settings.diameter_scale,
+        most_tension=most_tension,
+        frames=settings.frames,
+    )
     scene.update(drawn, settings)
     if not outcome.fresh:
         scene.grey()

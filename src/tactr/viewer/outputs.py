@@ -86,11 +86,9 @@ class Outputs:
         self.panel.record.label = "Record a motion"
         if not frames:
             raise TactrError("nothing was recorded: there was no shape")
-        from tactr.viewer.server import make_server
-
         note = client.add_notification("Writing the motion", f"{len(frames)} frames", loading=True)
         try:
-            html = motion_html(frames, make_server, self.settings, self.most_tension)
+            html = motion_html(frames, self.settings, self.most_tension)
         finally:
             note.remove()
         self._send(client, "html", html.encode())

@@ -19,6 +19,7 @@ from tactr.robot import Robot
 from tactr.statics import Shape
 from tactr.viewer.camera import FIELD_OF_VIEW, first_look
 from tactr.viewer.controls import Control, controls, most_tension
+from tactr.viewer.disks import Places, disk_places
 from tactr.viewer.latest import LatestWins
 from tactr.viewer.measured import misfit, read_points
 from tactr.viewer.motion import Recorder
@@ -35,7 +36,7 @@ from tactr.viewer.walls import wall_stations, walls
 
 TRACE_LENGTH, LEAST_TRACE_STEP = 600, 5e-5
 MOST_ROWS = 10_000
-SLOW_PERIOD = 0.1  # s between curves while states keep coming
+SLOW_PERIOD, PAUSE = 0.1, 0.008  # s between curves while states keep coming; s before them
 
 
 class Page(Outputs):
@@ -54,6 +55,7 @@ class Page(Outputs):
         self._began, self._curves_at = perf_counter(), 0.0
         self._points: np.ndarray | None = None
         self._rest: Shape | None = None
+        self._disks: tuple[Any, Places] | None = None
         self._showing = threading.RLock()
         self.worker: LatestWins[tuple[State, Settings]] = LatestWins(self._work, self._failed)
         self.panel = Panel(server, self, examples.names())
@@ -70,7 +72,7 @@ class Page(Outputs):
             self._trace.clear()
             self.rows.clear()
             self.recorder.stop()
-            self._rest = self.outcome = None
+            self._rest = self.outcome = self._disks = None
             with self.server.atomic():
                 self._scene.build(robot)
                 self.panel.build(robot, self.controls, self.most_tension)
@@ -218,7 +220,11 @@ class Page(Outputs):
                 self._scene.hide()
             else:
                 drawn = picture(
-                    shape, diameter_scale=settings.diameter_scale, most_tension=self.most_tension
+                    shape,
+                    diameter_scale=settings.diameter_scale,
+                    most_tension=self.most_tension,
+                    frames=settings.frames,
+                    places=self._disk_places(outcome),
                 )
                 self._scene.update(drawn, settings)
                 self._scene.trace(np.array(self._trace) if settings.trace else None)
@@ -226,12 +232,21 @@ class Page(Outputs):
                     self._scene.grey()
             self.panel.status(status_html(outcome))
 
+    def _disk_places(self, outcome: Outcome) -> Places | None:
+        """Where disks are: known as long as no tube was moved along and no host changed."""
+        if not outcome.fresh or outcome.shape is None:
+            return None
+        key = outcome.state.host, tuple(tube.translation for tube in outcome.shape.robot.tubes)
+        if self._disks is None or self._disks[0] != key:
+            self._disks = key, disk_places(outcome.shape.robot)
+        return self._disks[1]
+
     def _show_slow(self, outcome: Outcome, settings: Settings) -> None:
         """What may come a little later."""
-        shape, now = outcome.shape, perf_counter()
-        if self.worker.pending and now - self._curves_at < SLOW_PERIOD:
+        # the pause also leaves the interpreter to the thread that sends the geometry
+        if self.worker.newer_within(PAUSE) and perf_counter() - self._curves_at < SLOW_PERIOD:
             return
-        self._curves_at = now
+        shape, self._curves_at = outcome.shape, perf_counter()
         with self.server.atomic():
             self._show_rest(outcome.state, settings)
             if shape is not None:

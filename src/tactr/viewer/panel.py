@@ -31,7 +31,8 @@ TITLES = {
 }
 SECONDARY = ("force",)
 WIDTH = 400
-OWN_ROBOT = "(my file)"
+OWN_ROBOT = "(my own)"
+BUTTON = (66, 84, 102)
 
 # Arrow keys on a slider would move viser's camera, too: they end at the page's body.
 KEYS = (
@@ -108,9 +109,7 @@ class Panel:
             loads = gui.add_checkbox("Loads of the file act", True)
             self._on(loads, self._page.switch_loads)
             self._folders.append(loads)
-        reset = gui.add_button("Reset")
-        self._press(reset, self._page.reset)
-        self._folders.append(reset)
+        self._folders.append(self._button("Reset", self._page.reset))
 
     def _add_plots(self) -> None:
         gui = self._server.gui
@@ -153,8 +152,8 @@ class Panel:
         for name, label in switches.items():
             box = gui.add_checkbox(label, getattr(first, name))
             self._on(box, lambda value, name=name: self._set(**{name: value}))
-        self._press(gui.add_button("Clear the trace"), self._page.clear_trace)
-        self._press(gui.add_button("Look at the whole robot"), self._page.look)
+        self._button("Clear the trace", self._page.clear_trace)
+        self._button("Look at the whole robot", self._page.look)
 
     def _set(self, **changes: Any) -> None:
         self._page.show_settings(replace(self._page.settings, **changes))
@@ -162,21 +161,19 @@ class Panel:
     def _add_files(self) -> None:
         gui, page = self._server.gui, self._page
         with gui.add_folder("In"):
-            self._upload(gui.add_upload_button("Load a robot file", mime_type="*/*"), page.load_upload)
-            points = gui.add_upload_button("Lay measured points over (CSV)", mime_type="*/*")
-            self._upload(points, page.load_points)
+            self._upload("Load a robot file", page.load_upload)
+            self._upload("Lay measured points over (CSV)", page.load_points)
             self._misfit = gui.add_html("")
-            self._clear_points = gui.add_button("Take the points away", visible=False)
-            self._press(self._clear_points, page.clear_points)
+            self._clear_points = self._button("Take the points away", page.clear_points)
+            self._clear_points.visible = False
         with gui.add_folder("Out"):
-            self._press(gui.add_button("Copy as robot file"), page.copy_file)
-            self._press(gui.add_button("Copy as Python"), page.copy_python)
-            self._press(gui.add_button("Picture (PNG)"), page.save_png)
-            self._press(gui.add_button("Robot (GLB)"), page.save_glb)
-            self._press(gui.add_button("Robot (STL)"), page.save_stl)
-            self._press(gui.add_button("Readings so far (CSV)"), page.save_csv)
-            self.record = gui.add_button("Record a motion")
-            self._press(self.record, page.toggle_recording)
+            self._button("Copy as robot file", page.copy_file)
+            self._button("Copy as Python", page.copy_python)
+            self._button("Picture (PNG)", page.save_png)
+            self._button("Robot (GLB)", page.save_glb)
+            self._button("Robot (STL)", page.save_stl)
+            self._button("Readings so far (CSV)", page.save_csv)
+            self.record = self._button("Record a motion", page.toggle_recording)
 
     def status(self, html: str) -> None:
         """The box with the state and the numbers."""
@@ -228,12 +225,16 @@ class Panel:
 
         handle.on_update(changed)
 
-    def _press(self, handle: Any, act: Callable[[Any], None]) -> None:
-        """Calls act(client) in a thread: what buttons do may take a while."""
-        handle.on_click(lambda event: self._page.guarded(lambda: act(event.client), event.client))
+    def _button(self, label: str, act: Callable[[Any], None]) -> Any:
+        """A button that calls act(client) in a thread: what buttons do may take a while."""
+        button = self._server.gui.add_button(label, color=BUTTON)
+        button.on_click(lambda event: self._page.guarded(lambda: act(event.client), event.client))
+        return button
 
-    def _upload(self, handle: Any, act: Callable[[str, bytes], None]) -> None:
-        handle.on_upload(
+    def _upload(self, label: str, act: Callable[[str, bytes], None]) -> None:
+        """A button that takes a file and calls act(name, content)."""
+        button = self._server.gui.add_upload_button(label, color=BUTTON, mime_type="*/*")
+        button.on_upload(
             lambda event: self._page.guarded(
                 lambda: act(event.target.value.name, event.target.value.content), event.client
             )

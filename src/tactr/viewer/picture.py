@@ -8,7 +8,7 @@ import numpy as np
 
 from tactr.statics import Shape
 from tactr.viewer.arrows import load_arrows
-from tactr.viewer.disks import Disks, disk_places, disks
+from tactr.viewer.disks import Disks, Places, disk_places, disks
 from tactr.viewer.frames import material_frames
 from tactr.viewer.tension_colours import tension_colours
 from tactr.viewer.walls import Wall, wall_stations, walls
@@ -42,17 +42,24 @@ class Picture:
     tip: np.ndarray
 
 
-def picture(shape: Shape, *, diameter_scale: float = 1.0, most_tension: float = 1.0) -> Picture:
+def picture(
+    shape: Shape,
+    *,
+    diameter_scale: float = 1.0,
+    most_tension: float = 1.0,
+    frames: bool = False,
+    places: Places | None = None,
+) -> Picture:
     """The picture of a converged shape. diameter_scale: of the tubes' diameters; most_tension: N, of the
-    darkest tendon."""
+    darkest tendon; frames: with material frames; places: ``disk_places`` of the robot, if known."""
     robot = shape.robot
-    places = disk_places(robot)
+    places = disk_places(robot) if places is None else places
     tendon_ends = [
         robot.tube(tendon.tube).translation + tendon.end for tendon in robot.tendons if tendon.end is not None
     ]
     s = np.concatenate([wall_stations(robot), [place for _, place, _ in places], tendon_ends])
     fine = shape.sample(np.unique(s))
-    frame_position, frame_wxyz = material_frames(fine, FRAMES_PER_TUBE)
+    frame_position, frame_wxyz = material_frames(fine, FRAMES_PER_TUBE if frames else 0)
     arrows, colours = load_arrows(fine, ARROW_SHARE * max(tube.tip for tube in robot.tubes))
     tips = sorted({tube.tip for tube in robot.tubes})[:-1]
     return Picture(

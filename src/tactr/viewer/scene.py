@@ -69,7 +69,7 @@ class Scene:
             )
             for k in range(len(robot.tubes)) for part in (0, 1)
         ]  # fmt: skip
-        line = np.zeros((1, 2, 3))
+        line, size = np.zeros((1, 2, 3)), 5.0 * max(tube.tip for tube in robot.tubes)
         self._threads = [
             scene.add_line_segments(
                 f"{ROOT}/tendons/{k}", line, line.astype(np.uint8), thickness=3.0, thickness_units="screen",
@@ -81,16 +81,16 @@ class Scene:
             f"{ROOT}/trace", line, TRACE_COLOUR, thickness=2.0, thickness_units="screen", visible=False
         )
         self._transitions = scene.add_point_cloud(
-            f"{ROOT}/transitions", np.zeros((1, 3)), (20, 20, 20), point_size=0.014, point_shape="circle",
+            f"{ROOT}/transitions", np.zeros((1, 3)), (20, 20, 20), point_size=0.014 * size, point_shape="circle",
             precision="float32", visible=False,
         )  # fmt: skip
         self._tip = scene.add_point_cloud(
-            f"{ROOT}/tip", np.zeros((1, 3)), (204, 0, 119), point_size=0.018, point_shape="circle",
+            f"{ROOT}/tip", np.zeros((1, 3)), (204, 0, 119), point_size=0.018 * size, point_shape="circle",
             precision="float32", visible=False,
         )  # fmt: skip
         self._arrows = scene.add_arrows(
-            f"{ROOT}/loads", line, np.zeros((1, 3), dtype=np.uint8), shaft_radius=0.012, head_radius=0.035,
-            head_length=0.09, visible=False,
+            f"{ROOT}/loads", line, np.zeros((1, 3), dtype=np.uint8), visible=False,
+            shaft_radius=0.008 * size, head_radius=0.025 * size, head_length=0.07 * size,
         )  # fmt: skip
         self._add_disks(robot)
         self._add_frames(robot)
@@ -145,7 +145,9 @@ class Scene:
                     f"{ground}/{name}_{1e3 * place:.0f}", text, position=at, font_screen_scale=0.8,
                     anchor="center-center", depth_test=False,
                 )  # fmt: skip
-        self._scene.add_frame(f"{ground}/axes", axes_length=0.25, axes_radius=0.006, origin_radius=0.008)
+        self._scene.add_frame(
+            f"{ground}/axes", axes_length=1.6 * reach, axes_radius=0.03 * reach,
+            origin_radius=0.03 * reach)  # fmt: skip
 
     def update(self, drawn: Picture, settings: Settings) -> None:
         """Show a picture."""
@@ -161,10 +163,10 @@ class Scene:
             self._arrows.points, self._arrows.colors = PER_METRE * drawn.arrows, drawn.arrow_colours
         self._arrows.visible = settings.loads and len(drawn.arrows) > 0
         self._set_disks(drawn, settings)
-        if settings.frames:
+        if len(drawn.frame_position):
             self._frames.batched_positions = PER_METRE * drawn.frame_position
             self._frames.batched_wxyzs = drawn.frame_wxyz
-        self._frames.visible = settings.frames
+        self._frames.visible = len(drawn.frame_position) > 0
         self._ground.visible = settings.grid
 
     def rest(self, walls: Sequence[Wall] | None) -> None:
@@ -222,9 +224,9 @@ class Scene:
 
     def _set_walls(self, nodes: Sequence[Any], walls: Sequence[Wall]) -> None:
         for node, wall in zip(nodes, walls, strict=True):
-            if wall.length > 0:
+            if wall.vertices is not None:
                 node.vertices = PER_METRE * wall.vertices
-            node.visible = wall.length > 0
+            node.visible = wall.vertices is not None
 
     def _set_points(self, node: Any, points: np.ndarray) -> None:
         if len(points):

@@ -35,6 +35,12 @@ def make_server(port: int | None = None) -> Any:
     return server
 
 
+def stop_server(server: Any) -> None:
+    """Stop a server without a word."""
+    with redirect_stdout(io.StringIO()):
+        server.stop()
+
+
 def _free_port(port: int | None) -> int:
     if port is not None:
         if not _is_free(port):

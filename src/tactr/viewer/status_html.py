@@ -27,7 +27,7 @@ def status_html(outcome: Outcome) -> str:
     head = f'<b style="font-size:15px">{SIGNS[outcome.level]} {escape(outcome.headline)}</b>'
     found = readings(outcome.shape) if outcome.shape is not None and outcome.fresh else None
     if found is not None:
-        head += f'<span style="float:right">margin {found.margin:.2g}</span>'
+        head += f'<span style="float:right"> stability margin {found.margin:.2g}</span>'
     reason = f"<div>{escape(_short(outcome.reason))}</div>" if outcome.reason else ""
     if outcome.level == "bad":
         kept = "the last good shape is shown in grey" if outcome.shape is not None else "there is no shape yet"

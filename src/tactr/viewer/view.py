@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import threading
 from types import TracebackType
 
@@ -9,7 +10,7 @@ from tactr.errors import RobotError
 from tactr.robot import Robot
 from tactr.statics import Shape
 from tactr.viewer.page import Page
-from tactr.viewer.server import HOST, make_server
+from tactr.viewer.server import HOST, make_server, stop_server
 
 GRACE = 4.0
 """How long (s) a page may be away: a reload takes a second."""
@@ -29,9 +30,10 @@ class View:
         self._server = make_server(port)
         self.port: int = self._server.get_port()
         self.url = f"http://{HOST}:{self.port}"
-        self._gone = threading.Event()
+        self._gone, self._closed = threading.Event(), False
         self._leaving: threading.Timer | None = None
         self.page = Page(self._server, robot, source or "...  # your robot", shape)
+        atexit.register(self.close)
         self._server.on_client_connect(lambda _: self._arrive())
         self._server.on_client_disconnect(lambda _: self._leave())
 
@@ -42,11 +44,15 @@ class View:
 
     def close(self) -> None:
         """End the page and its server."""
+        if self._closed:
+            return
+        self._closed = True
+        atexit.unregister(self.close)
         self._gone.set()
         if self._leaving is not None:
             self._leaving.cancel()
         self.page.worker.close()
-        self._server.stop()
+        stop_server(self._server)
 
     def _arrive(self) -> None:
         if self._leaving is not None:

@@ -17,15 +17,15 @@ STATIONS = 48
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Wall:
-    """A part of a tube: vertices (n, 3) m in world axes, joined by ``swept_faces(STATIONS)``.
+    """A part of a tube: vertices (n, 3) m in world axes, joined by ``swept_faces(STATIONS)``; None where the
+    tube has no such part.
 
-    tube: its index; nested: whether another tube runs inside; length: m, 0 where there is no such part.
+    tube: its index; nested: whether another tube runs inside.
     """
 
     tube: int
     nested: bool
-    vertices: np.ndarray
-    length: float
+    vertices: np.ndarray | None
 
 
 def spans(robot: Robot) -> list[tuple[float, float, float]]:
@@ -36,7 +36,7 @@ def spans(robot: Robot) -> list[tuple[float, float, float]]:
 
 def wall_stations(robot: Robot) -> np.ndarray:
     """All arc lengths (k,), ascending, m, that ``walls`` reads."""
-    ends = [part for span in spans(robot) for part in (span[:2], span[1:])]
+    ends = [part for span in spans(robot) for part in (span[:2], span[1:]) if part[0] < part[1]]
     return np.unique(np.concatenate([np.linspace(*part, STATIONS) for part in ends]))
 
 
@@ -50,9 +50,11 @@ def walls(fine: Shape, scale: float = 1.0) -> list[Wall]:
 
 
 def _wall(fine: Shape, k: int, start: float, end: float, nested: bool, scale: float) -> Wall:
+    if not end > start:
+        return Wall(k, nested, None)
     tube = fine.tubes[k]
     s = np.linspace(start, end, STATIONS)
     at = np.searchsorted(tube.s, s).clip(max=len(tube.s) - 1)
     outer, inner = radii(fine.robot, k, tube.sigma[at])
     vertices = swept_vertices(tube.position[at], tube.frames[at], scale * outer, scale * inner)
-    return Wall(k, nested, vertices, end - start)
+    return Wall(k, nested, vertices)
