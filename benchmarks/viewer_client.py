@@ -97,7 +97,7 @@ def moves_tubes(messages: list[dict[str, Any]]) -> bool:
     """Whether new vertices of a tube are among the messages."""
     return any(
         message["type"] == "SceneNodeUpdateMessage"
-        and message["name"].startswith("/robot/tubes/")
+        and "/tubes/" in message["name"]
         and "vertices" in message["updates"]
         for message in messages
     )

@@ -56,5 +56,7 @@ def test_normals_of_the_outside_point_away_from_the_axis():
 def test_a_ring_lies_where_the_frame_puts_it():
     position, frames = _bend(0.3, 3)
     vertices = swept_vertices(position, frames, np.array([1.0, 2.0, 3.0]), np.zeros(3), sides=4)
-    np.testing.assert_allclose(vertices[4:8:2], [position[1] + 2 * frames[1, :, 0], position[1] - 2 * frames[1, :, 0]], atol=1e-12)
+    np.testing.assert_allclose(
+        vertices[4:8:2], [position[1] + 2 * frames[1, :, 0], position[1] - 2 * frames[1, :, 0]], atol=1e-12
+    )
     np.testing.assert_allclose(vertices[5], position[1] + 2 * frames[1, :, 1], atol=1e-12)

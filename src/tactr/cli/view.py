@@ -20,13 +20,13 @@ def run_view(file: str, *, port: int | None, browser: bool) -> int:
 
     built_in = file in examples.names() and not Path(file).exists()
     source = f'tactr.examples.load("{file}")' if built_in else f"tactr.load({file!r})"
-    with View(robot, port=port, source=source) as view:
-        print(f"{robot.name or file} is at {view.url}", flush=True)
-        if browser:
-            open_browser(view.url)
-        print("close the page, or press Ctrl-C here, to end", file=sys.stderr, flush=True)
-        try:
+    try:
+        with View(robot, port=port, source=source) as view:
+            print(f"{robot.name or file} is at {view.url}", flush=True)
+            if browser:
+                open_browser(view.url)
+            print("close the page, or press Ctrl-C here, to end", file=sys.stderr, flush=True)
             view.wait()
-        except KeyboardInterrupt:
-            print(file=sys.stderr)
+    except KeyboardInterrupt:
+        print(file=sys.stderr)
     return 0

@@ -63,8 +63,8 @@ class Tendon:
     B), "outermost" when disks on the outermost tube present guide it (approach A). Each host reads the path
     in its own material frame: where the host changes between tubes turned against each other, the path jumps
     sideways, and the tendon's pull beyond, force and moment, passes to the end of the outer one. end: sigma
-    in m where it is fixed; None for the tube's distal end. limits: how far its actuator goes, if known. Raises
-    RobotError.
+    in m where it is fixed; None for the tube's distal end. limits: how far its actuator goes, if known.
+    Raises RobotError.
 
     It is pulled by a tension (N, at least 0, or a TensionProfile), or by a displacement (m, positive pulls,
     None: none) of its motor, which rides on the proximal end of its tube. Under a displacement d its tension

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tactr.robot import DistributedLoad, Gravity, PointLoad
+from tactr.robot import DistributedLoad, Gravity, PointLoad, Robot
 from tactr.statics import Shape
 
 FORCE_COLOUR, MOMENT_COLOUR, WEIGHT_COLOUR = (204, 0, 119), (120, 60, 190), (90, 90, 90)
@@ -39,7 +39,28 @@ def load_arrows(shape: Shape, length: float) -> tuple[np.ndarray, np.ndarray]:
     return np.array(arrows).reshape(-1, 2, 3), np.array(colours, dtype=np.uint8).reshape(-1, 3)
 
 
-def _place(shape: Shape, name: str | None, at: float | None) -> tuple[np.ndarray, np.ndarray]:
+def load_places(robot: Robot) -> list[float]:
+    """Arc lengths s (m) at which ``load_arrows`` reads a shape."""
+    points = [load for load in robot.loads if isinstance(load, PointLoad)]
+    places = [robot.tube(load.tube).translation + load.at for load in points if load.at is not None]
+    for load in robot.loads:
+        if isinstance(load, DistributedLoad):
+            places += _spread(robot, load).tolist()
+    return [place for place in places if place >= 0.0]
+
+
+def _spread(robot: Robot, load: DistributedLoad) -> np.ndarray:
+    """Arc lengths s (m) of the arrows of a distributed load, on the part of it outside the guide."""
+    if load.tube is None:
+        start, most, offset = load.start, max(tube.tip for tube in robot.tubes), 0.0
+    else:
+        tube = robot.tube(load.tube)
+        start, most, offset = load.start, tube.length, tube.translation
+    end = (most if load.end is None else min(load.end, most)) + offset
+    return np.linspace(max(start + offset, 0.0), end, PER_LOAD) if end > 0.0 else np.empty(0)
+
+
+def _place(shape: Shape, name: str, at: float | None) -> tuple[np.ndarray, np.ndarray]:
     """Position and material frame of a tube at its own arc length, its tip where None."""
     tubes = shape.robot.tubes
     index = [tube.name for tube in tubes].index(name)
@@ -51,14 +72,8 @@ def _place(shape: Shape, name: str | None, at: float | None) -> tuple[np.ndarray
 
 def _distributed(shape: Shape, load: DistributedLoad) -> list:
     tubes = shape.robot.tubes
-    if load.tube is None:
-        start, most, offset = load.start, max(tube.tip for tube in tubes), 0.0
-    else:
-        tube = shape.robot.tube(load.tube)
-        start, most, offset = load.start, tube.length, tube.translation
-    end = most if load.end is None else min(load.end, most)
     entries = []
-    for place in np.linspace(max(start + offset, 0.0), end + offset, PER_LOAD):
+    for place in _spread(shape.robot, load):
         present = next(tube for tube in tubes if tube.tip >= place - 1e-9)
         tube = present if load.tube is None else shape.robot.tube(load.tube)
         at, frame = _place(shape, tube.name, place - tube.translation)

@@ -97,7 +97,9 @@ def _insertion(robot: Robot, tube: Tube) -> Control:
     furthest_in = -innermost_place(robot, tube)
     given = tube.limits.translation if tube.limits else None
     low, high = given or (LEAST_OUTSIDE * tube.length - tube.length, 0.0)
-    low = max(low, 1e-3 * math.ceil(1e3 * furthest_in))  # whole millimetres: the end of a tendon stays outside
+    low = max(
+        low, 1e-3 * math.ceil(1e3 * furthest_in)
+    )  # whole millimetres: the end of a tendon stays outside
     low, high = min(low, tube.translation), max(high, tube.translation)
     return _control("insertion", tube.name, "mm", 1e3, low + tube.length, high + tube.length, tube.tip)
 

@@ -43,7 +43,7 @@ def disk_places(robot: Robot) -> Places:
     """Host tube, arc length s (m) and offset of the outermost tendon (m) of every disk."""
     names, step = [tube.name for tube in robot.tubes], spacing(robot)
     # counted from the tip of the host: its last disk is at its end, and all move with it
-    grids = [np.arange(tube.tip, 0.0, -step) for tube in robot.tubes]
+    grids = [np.arange(tube.tip, 0.25 * step, -step) for tube in robot.tubes]
     offsets: dict[tuple[int, float], float] = {}
     for tendon in robot.tendons:
         own = names.index(tendon.tube)

@@ -45,7 +45,7 @@ def stl(shape: Shape) -> bytes:
     return bytes(trimesh.util.concatenate(meshes).export(file_type="stl"))
 
 
-def csv_text(columns: Sequence[str], rows: Iterable[Sequence[float]]) -> str:
+def csv_text(columns: Sequence[str], rows: Iterable[Sequence[float] | np.ndarray]) -> str:
     """Rows of numbers under their heads; empty where a number is not there."""
     import csv
 

@@ -29,8 +29,8 @@ class Misfit:
     def __str__(self) -> str:
         mean, largest, tip = (1e3 * value for value in (self.mean, self.largest, self.tip))
         return (
-            f"{len(self.gaps)} measured points: to the centreline {mean:.2f} mm on average, {largest:.2f} mm at "
-            f"most; the last one to the tip {tip:.2f} mm"
+            f"{len(self.gaps)} measured points: to the centreline {mean:.2f} mm on average, {largest:.2f} mm "
+            f"at most; the last one to the tip {tip:.2f} mm"
         )
 
 
@@ -56,7 +56,7 @@ def read_points(text: str, name: str = "measured points") -> np.ndarray:
 
 
 def misfit(points: np.ndarray, centreline: np.ndarray, tip: np.ndarray) -> Misfit:
-    """How far points (n, 3) are from a centreline (k, 3), straight between its points, and its tip (3,), m."""
+    """How far points (n, 3) are from a centreline (k, 3), straight in between, and its tip (3,), m."""
     start, along = centreline[:-1], np.diff(centreline, axis=0)
     away = points[:, None] - start
     share = np.einsum("nka,ka->nk", away, along) / np.einsum("ka,ka->k", along, along)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from time import perf_counter
 
-from tactr.viewer.camera import first_look
+from tactr.viewer.camera import FIELD_OF_VIEW, first_look
 from tactr.viewer.picture import picture
 from tactr.viewer.scene import PER_METRE, Scene
 from tactr.viewer.server import make_server, stop_server
@@ -56,9 +56,7 @@ class Recorder:
             self._frames.append((time if self._frames else 0.0, outcome))
 
 
-def motion_html(
-    frames: Sequence[tuple[float, Outcome]], settings: Settings, most_tension: float
-) -> str:
+def motion_html(frames: Sequence[tuple[float, Outcome]], settings: Settings, most_tension: float) -> str:
     """A standalone HTML page that plays frames. It is recorded from a server of its own, without a page."""
     stage = make_server()
     try:
@@ -67,10 +65,8 @@ def motion_html(
         assert shape is not None
         scene.build(shape.robot)
         position, look_at = first_look(shape.robot, shape.centreline)
-        stage.initial_camera.position, stage.initial_camera.look_at = (
-            PER_METRE * position,
-            PER_METRE * look_at,
-        )
+        camera = stage.initial_camera
+        camera.position, camera.look_at, camera.fov = PER_METRE * position, PER_METRE * look_at, FIELD_OF_VIEW
         drawn = _show(scene, frames[0][1], settings, most_tension)
         recording = stage.get_scene_serializer()
         before = 0.0

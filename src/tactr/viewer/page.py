@@ -17,6 +17,7 @@ from tactr import examples
 from tactr.errors import TactrError
 from tactr.robot import Robot
 from tactr.statics import Shape
+from tactr.viewer.busy import Busy
 from tactr.viewer.camera import FIELD_OF_VIEW, first_look
 from tactr.viewer.controls import Control, controls, most_tension
 from tactr.viewer.disks import Places, disk_places
@@ -31,7 +32,7 @@ from tactr.viewer.scene import PER_METRE, Scene
 from tactr.viewer.session import Outcome, Session
 from tactr.viewer.settings import Settings
 from tactr.viewer.state import HostChoice, State
-from tactr.viewer.status_html import status_html
+from tactr.viewer.status_html import busy_html, status_html
 from tactr.viewer.walls import wall_stations, walls
 
 TRACE_LENGTH, LEAST_TRACE_STEP = 600, 5e-5
@@ -57,6 +58,7 @@ class Page(Outputs):
         self._rest: Shape | None = None
         self._disks: tuple[Any, Places] | None = None
         self._showing = threading.RLock()
+        self._busy = Busy(lambda: self.panel.status(busy_html()))
         self.worker: LatestWins[tuple[State, Settings]] = LatestWins(self._work, self._failed)
         self.panel = Panel(server, self, examples.names())
         self.example_shown = source.partition('examples.load("')[2].partition('"')[0]
@@ -139,7 +141,9 @@ class Page(Outputs):
             try:
                 robot = load(path)
             except TactrError as error:
-                self.panel.errors(str(error).replace(f"{folder}/", "").replace(f"{folder}\\", "").splitlines())
+                self.panel.errors(
+                    str(error).replace(f"{folder}/", "").replace(f"{folder}\\", "").splitlines()
+                )
                 return
         self.panel.errors([])
         self.load(robot, f"tactr.load({name!r})")
@@ -195,7 +199,8 @@ class Page(Outputs):
         with self._showing:
             if state.robot is not self.state.robot:
                 return  # another one was loaded meanwhile
-            outcome = self._outcome(state)
+            with self._busy:
+                outcome = self._outcome(state)
             self._show(outcome, settings)
             self.server.flush()
             self._show_slow(outcome, settings)

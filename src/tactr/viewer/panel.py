@@ -16,7 +16,7 @@ from tactr.viewer.charts import QUANTITIES, curves
 from tactr.viewer.controls import Control
 from tactr.viewer.settings import Settings
 from tactr.viewer.state import HOSTS
-from tactr.viewer.status_html import errors_html, legend_html, note_html
+from tactr.viewer.status_html import copy_html, errors_html, legend_html, note_html
 from tactr.viewer.widths import unknown_diameters
 
 if TYPE_CHECKING:
@@ -201,23 +201,13 @@ class Panel:
 
     def show_text(self, title: str, text: str, client: Any) -> None:
         """A window with a text to copy."""
-        from html import escape
-
-        copy = (
-            "const t=this.previousElementSibling;t.select();"
-            "(navigator.clipboard?navigator.clipboard.writeText(t.value):Promise.reject())"
-            ".catch(()=>document.execCommand('copy')).then(()=>this.textContent='Copied')"
-        )
         gui = client.gui
         with gui.add_modal(title) as modal:
-            gui.add_html(
-                f'<textarea data-copy readonly style="width:100%;height:380px;font:12px monospace">{escape(text)}'
-                f'</textarea><button onclick="{escape(copy)}" style="padding:4px 14px;margin-top:6px">Copy</button>'
-            )
+            gui.add_html(copy_html(text))
             gui.add_button("Close").on_click(lambda _: modal.close())
 
     def _on(self, handle: Any, act: Callable[[Any], None]) -> None:
-        """Calls act(value) on what a user does, in the order in which it is done; not on what the page sets."""
+        """Calls act(value) on what a user does, in that order; not on what the page sets."""
 
         async def changed(event: Any) -> None:
             if event.client_id is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactr.statics import Shape
-from tactr.viewer.arrows import load_arrows
+from tactr.viewer.arrows import load_arrows, load_places
 from tactr.viewer.disks import Disks, Places, disk_places, disks
 from tactr.viewer.frames import material_frames
 from tactr.viewer.tension_colours import tension_colours
@@ -57,7 +57,9 @@ def picture(
     tendon_ends = [
         robot.tube(tendon.tube).translation + tendon.end for tendon in robot.tendons if tendon.end is not None
     ]
-    s = np.concatenate([wall_stations(robot), [place for _, place, _ in places], tendon_ends])
+    s = np.concatenate(
+        [wall_stations(robot), [place for _, place, _ in places], tendon_ends, load_places(robot)]
+    )
     fine = shape.sample(np.unique(s))
     frame_position, frame_wxyz = material_frames(fine, FRAMES_PER_TUBE if frames else 0)
     arrows, colours = load_arrows(fine, ARROW_SHARE * max(tube.tip for tube in robot.tubes))

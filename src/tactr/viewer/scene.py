@@ -18,9 +18,8 @@ from tactr.viewer.walls import STATIONS, Wall
 PER_METRE = 10.0
 """Units of the scene: a tenth of a metre each, because cameras like sizes near one."""
 
-ROOT = "/robot"
 GREYED, NESTED_OPACITY = "#b5b5b5", 0.72
-TRACE_COLOUR, MEASURED_COLOUR = (30, 30, 30), (0, 0, 0)
+TRACE_COLOUR, MEASURED_COLOUR, GAP_COLOUR = (30, 30, 30), (0, 0, 0), (204, 0, 119)
 HIDDEN = 1e-6  # scale of a disk that is not there
 
 
@@ -31,7 +30,7 @@ def rgb(colour: str) -> tuple[int, int, int]:
 
 
 def linear(colours: np.ndarray) -> np.ndarray:
-    """Colours of lines as viser shows them right: it takes those at points for linear light (IEC 61966-2-1)."""
+    """Colours of lines for viser, which takes those at points for linear light (IEC 61966-2-1)."""
     return (255.0 * ((colours / 255.0 + 0.055) / 1.055) ** 2.4).round().astype(np.uint8)
 
 
@@ -43,20 +42,25 @@ class Scene:
         self._walls: list[Any] = []
         self._threads: list[Any] = []
         self._ghosts: list[Any] = []
-        self._measured: list[Any] = []
-        self._greyed = False
+        self._measured: Any = None
+        self._gaps: Any = None
+        self._root: Any = None
+        self._built, self._greyed = 0, False
 
     def build(self, robot: Robot) -> None:
         """Nodes for a robot, empty until there is a picture of it."""
-        scene, self._robot = self._scene, robot
-        scene.add_frame(ROOT, show_axes=False)  # takes the nodes of the robot before away
-        self._greyed = False
+        scene = self._scene
+        if self._root is not None:
+            self._root.remove()
+        self._built += 1  # a new name: what is sent for the nodes before must not reach these
+        root = f"/robot_{self._built}"
+        self._root, self._greyed = scene.add_frame(root, show_axes=False), False
         nothing = np.zeros((vertex_count(STATIONS), 3))
         faces = swept_faces(STATIONS)
         colours = [rgb(tube_colour(k)) for k in range(len(robot.tubes))]
         self._walls = [
             scene.add_mesh_simple(
-                f"{ROOT}/tubes/{k}_{'nested' if nested else 'bare'}", nothing, faces, color=colours[k],
+                f"{root}/tubes/{k}_{'nested' if nested else 'bare'}", nothing, faces, color=colours[k],
                 opacity=NESTED_OPACITY if nested else None, visible=False, side="double",
                 cast_shadow=False, receive_shadow=False,
             )
@@ -64,7 +68,7 @@ class Scene:
         ]  # fmt: skip
         self._ghosts = [
             scene.add_mesh_simple(
-                f"{ROOT}/rest/{k}_{part}", nothing, faces, color=(120, 120, 120), opacity=0.13,
+                f"{root}/rest/{k}_{part}", nothing, faces, color=(120, 120, 120), opacity=0.13,
                 visible=False, cast_shadow=False, receive_shadow=False,
             )
             for k in range(len(robot.tubes)) for part in (0, 1)
@@ -72,50 +76,50 @@ class Scene:
         line, size = np.zeros((1, 2, 3)), 5.0 * max(tube.tip for tube in robot.tubes)
         self._threads = [
             scene.add_line_segments(
-                f"{ROOT}/tendons/{k}", line, line.astype(np.uint8), thickness=3.0, thickness_units="screen",
+                f"{root}/tendons/{k}", line, line.astype(np.uint8), thickness=3.0, thickness_units="screen",
                 visible=False,
             )
             for k in range(len(robot.tendons))
         ]  # fmt: skip
         self._trace = scene.add_line_segments(
-            f"{ROOT}/trace", line, TRACE_COLOUR, thickness=2.0, thickness_units="screen", visible=False
+            f"{root}/trace", line, TRACE_COLOUR, thickness=2.0, thickness_units="screen", visible=False
         )
         self._transitions = scene.add_point_cloud(
-            f"{ROOT}/transitions", np.zeros((1, 3)), (20, 20, 20), point_size=0.014 * size, point_shape="circle",
-            precision="float32", visible=False,
+            f"{root}/transitions", np.zeros((1, 3)), (20, 20, 20), point_size=0.014 * size,
+            point_shape="circle", precision="float32", visible=False,
         )  # fmt: skip
         self._tip = scene.add_point_cloud(
-            f"{ROOT}/tip", np.zeros((1, 3)), (204, 0, 119), point_size=0.018 * size, point_shape="circle",
+            f"{root}/tip", np.zeros((1, 3)), (204, 0, 119), point_size=0.018 * size, point_shape="circle",
             precision="float32", visible=False,
         )  # fmt: skip
         self._arrows = scene.add_arrows(
-            f"{ROOT}/loads", line, np.zeros((1, 3), dtype=np.uint8), visible=False,
+            f"{root}/loads", line, np.zeros((1, 3), dtype=np.uint8), visible=False,
             shaft_radius=0.008 * size, head_radius=0.025 * size, head_length=0.07 * size,
         )  # fmt: skip
-        self._add_disks(robot)
-        self._add_frames(robot)
-        self._add_surroundings(robot)
+        self._add_disks(robot, root)
+        self._add_frames(robot, root)
+        self._add_surroundings(robot, root)
 
-    def _add_disks(self, robot: Robot) -> None:
+    def _add_disks(self, robot: Robot, root: str) -> None:
         self._most_disks = most_disks(robot)
         self._disks = None
         if self._most_disks:
             vertices, faces = unit_disk()
             count = self._most_disks
             self._disks = self._scene.add_batched_meshes_simple(
-                f"{ROOT}/disks", vertices, faces, np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)),
+                f"{root}/disks", vertices, faces, np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)),
                 batched_scales=np.full((count, 3), HIDDEN), batched_colors=(176, 184, 194), opacity=0.32,
                 lod="off", cast_shadow=False, receive_shadow=False, visible=False, side="double",
             )  # fmt: skip
 
-    def _add_frames(self, robot: Robot) -> None:
+    def _add_frames(self, robot: Robot, root: str) -> None:
         count = FRAMES_PER_TUBE * len(robot.tubes)
         self._frames = self._scene.add_batched_axes(
-            f"{ROOT}/frames", np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)), axes_length=0.1,
+            f"{root}/frames", np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)), axes_length=0.1,
             axes_radius=0.005, visible=False,
         )  # fmt: skip
 
-    def _add_surroundings(self, robot: Robot) -> None:
+    def _add_surroundings(self, robot: Robot, root: str) -> None:
         """The guide, and a ground with its scale in mm."""
         reach = max(tube.tip for tube in robot.tubes)
         widest = guide_radius(robot)
@@ -123,12 +127,12 @@ class Scene:
         vertices, faces = unit_disk()
         vertices = (vertices - [0, 0, 0.5]) * [widest, widest, depth]
         self._scene.add_mesh_simple(
-            f"{ROOT}/guide", PER_METRE * vertices, faces, color=rgb(GUIDE_COLOUR), flat_shading=False,
+            f"{root}/guide", PER_METRE * vertices, faces, color=rgb(GUIDE_COLOUR), flat_shading=False,
             cast_shadow=False, receive_shadow=False,
         )  # fmt: skip
         step = round_step(reach)
         half = np.ceil(reach / (5 * step)) * 5 * step
-        ground = f"{ROOT}/ground"
+        ground = f"{root}/ground"
         self._ground = self._scene.add_frame(ground, show_axes=False, position=(0, 0, -PER_METRE * depth))
         self._scene.add_grid(
             f"{ground}/grid", 2 * PER_METRE * half, 2 * PER_METRE * half, cell_size=PER_METRE * step,
@@ -180,26 +184,29 @@ class Scene:
     def trace(self, points: np.ndarray | None) -> None:
         """Show the way of the tip through points (n, 3), m; None or one point: no trace."""
         shown = points is not None and len(points) > 1
-        if shown:
+        if points is not None and shown:
             self._trace.points = PER_METRE * np.stack([points[:-1], points[1:]], axis=1)
-        self._trace.visible = bool(shown)
+        self._trace.visible = shown
 
     def measured(self, points: np.ndarray | None, gaps: np.ndarray | None) -> None:
         """Show measured points (n, 3) m and their gaps (n, 2, 3) m to the shape; None: none."""
-        for node in self._measured:
-            node.remove()
-        self._measured = []
-        if points is not None:
-            cloud = self._scene.add_point_cloud(
-                "/measured/points", PER_METRE * points, MEASURED_COLOUR, point_size=0.03,
-                point_shape="diamond", precision="float32",
+        if points is None:
+            for node in (self._measured, self._gaps):
+                if node is not None:
+                    node.visible = False
+            return
+        if self._measured is None:
+            self._measured = self._scene.add_point_cloud(
+                "/measured/points", np.zeros((1, 3)), MEASURED_COLOUR, point_size=0.03, point_shape="diamond",
+                precision="float32",
             )  # fmt: skip
-            self._measured.append(cloud)
-        if gaps is not None:
-            lines = self._scene.add_line_segments(
-                "/measured/gaps", PER_METRE * gaps, (204, 0, 119), thickness=2.0, thickness_units="screen"
+            self._gaps = self._scene.add_line_segments(
+                "/measured/gaps", np.zeros((1, 2, 3)), GAP_COLOUR, thickness=2.0, thickness_units="screen"
             )
-            self._measured.append(lines)
+        self._measured.points, self._measured.visible = PER_METRE * points, True
+        if gaps is not None:
+            self._gaps.points = PER_METRE * gaps
+        self._gaps.visible = gaps is not None
 
     def grey(self) -> None:
         """Grey the shape that is shown, because it is not that of the state."""

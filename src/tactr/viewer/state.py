@@ -70,7 +70,7 @@ class State:
 
 
 def as_python(state: State, source: str) -> str:
-    """A program that solves the robot in this state; source: what loads it, such as 'tactr.load("a.yaml")'."""
+    """A program that solves the robot in this state; source: what loads it: 'tactr.load("a.yaml")'."""
     lines = ["import tactr"]
     options = [f"    {name}={values!r}," for name, values in state.actuation.items()]
     changes = []
@@ -85,6 +85,11 @@ def as_python(state: State, source: str) -> str:
         changes.append(f"loads=[{own}{tip}]")
     lines += ["", f"robot = {source}"]
     lines += [f"robot = robot.replace({change})" for change in changes]
-    lines += ["shape = tactr.solve(", "    robot,", *options, ")", "print(shape.tip_position, shape.stability)"]
+    lines += [
+        "shape = tactr.solve(",
+        "    robot,",
+        *options,
+        ")",
+        "print(shape.tip_position, shape.stability)",
+    ]
     return "\n".join(lines) + "\n"
-

@@ -30,13 +30,25 @@ def status_html(outcome: Outcome) -> str:
         head += f'<span style="float:right"> stability margin {found.margin:.2g}</span>'
     reason = f"<div>{escape(_short(outcome.reason))}</div>" if outcome.reason else ""
     if outcome.level == "bad":
-        kept = "the last good shape is shown in grey" if outcome.shape is not None else "there is no shape yet"
+        kept = (
+            "The last good shape is shown in grey" if outcome.shape is not None else "There is no shape yet"
+        )
         reason += f"<div>{kept}.</div>"
     box = (
         f'<div data-status="{escape(outcome.headline)}" style="background:{ground};color:{ink};'
         f'border-left:4px solid {ink};padding:5px 9px;margin:0 0 6px">{head}{reason}</div>'
     )
     return f'<div style="{FONT};padding:2px 10px 10px">{box}{_numbers(found)}</div>'
+
+
+def busy_html() -> str:
+    """A solve that takes its time."""
+    ground, ink = COLOURS["warning"]
+    return (
+        f'<div style="{FONT};padding:2px 10px 10px"><div data-status="solving" style="background:{ground};'
+        f'color:{ink};border-left:4px solid {ink};padding:5px 9px"><b style="font-size:15px">solving …</b>'
+        "<div>No equilibrium is near: all ways to find one are being tried.</div></div></div>"
+    )
 
 
 def _numbers(found: Readings | None) -> str:
@@ -87,7 +99,9 @@ def legend_html(robot: Robot, most_tension: float) -> str:
     )
     text = " ".join(robot.description.split())
     about = f'<div style="color:#666">{escape(_short(text, 150))}</div>' if text else ""
-    return f'<div style="{FONT};padding:0 10px 4px">{about}<div>{tubes}</div>{tendons if robot.tendons else ""}</div>'
+    if not robot.tendons:
+        tendons = ""
+    return f'<div style="{FONT};padding:0 10px 4px">{about}<div>{tubes}</div>{tendons}</div>'
 
 
 def errors_html(problems: Sequence[str]) -> str:
@@ -95,8 +109,24 @@ def errors_html(problems: Sequence[str]) -> str:
     ground, ink = COLOURS["bad"]
     lines = "".join(f"<div>{escape(line)}</div>" for line in problems)
     return (
-        f'<div style="{FONT};padding:2px 10px"><div data-errors="{len(problems)}" style="background:{ground};'
-        f'color:{ink};border-left:4px solid {ink};padding:5px 9px;overflow-wrap:anywhere">{lines}</div></div>'
+        f'<div style="{FONT};padding:2px 10px 10px"><div data-errors="{len(problems)}" '
+        f'style="background:{ground};color:{ink};border-left:4px solid {ink};padding:5px 9px;'
+        f'overflow-wrap:anywhere">{lines}</div></div>'
+    )
+
+
+COPY = (
+    "const t=this.previousElementSibling;t.select();"
+    "(navigator.clipboard?navigator.clipboard.writeText(t.value):Promise.reject())"
+    ".catch(()=>document.execCommand('copy')).then(()=>this.textContent='Copied')"
+)
+
+
+def copy_html(text: str) -> str:
+    """A text with a button that copies it."""
+    return (
+        f'<textarea data-copy readonly style="width:100%;height:380px;font:12px monospace">{escape(text)}'
+        f'</textarea><button onclick="{escape(COPY)}" style="padding:4px 14px;margin-top:6px">Copy</button>'
     )
 
 

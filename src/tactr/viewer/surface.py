@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -39,7 +40,7 @@ def swept_faces(stations: int, sides: int = SIDES) -> np.ndarray:
     outside = np.arange(stations * sides).reshape(stations, sides)
     bore = outside + stations * sides
     near_out, near_in, far_out, far_in = 2 * stations * sides + np.arange(4 * sides).reshape(4, sides)
-    strips = [*zip(outside, outside[1:], strict=False), *zip(bore[1:], bore, strict=False)]
+    strips = [*pairwise(outside), *((high, low) for low, high in pairwise(bore))]
     strips += [(near_in, near_out), (far_out, far_in)]
     faces = np.concatenate([_strip(low, high) for low, high in strips]).astype(np.uint32)
     faces.setflags(write=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-# ColorBrewer's OrRd (Brewer, 2003), which colour-blind people read by its lightness, without its palest three.
+# ColorBrewer's OrRd (Brewer, 2003) without its palest three: colour-blind people read it by its lightness.
 SCALE = np.array(
     [[253, 187, 132], [252, 141, 89], [239, 101, 72], [215, 48, 31], [179, 0, 0], [127, 0, 0]],
     dtype=float,
