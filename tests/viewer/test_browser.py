@@ -159,11 +159,11 @@ def test_the_menu_of_examples(opened, pictures):
     np.testing.assert_allclose(opened.tip, 1e3 * expected.tip_position, atol=1e-3)
     assert opened.view.page.source == 'tactr.examples.load("three_tube_ctr")'
     opened.page.wait_for_timeout(800)
-    image = _shot(opened, pictures / "three_tube_ctr.png")[200:, :870]
+    image = _shot(opened, pictures / "three_tube_ctr.png")[:, 320:870]
     assert _like(image, slice(0, 60), slice(140, 200), slice(90, 150)) > 100  # the third tube's green
     opened.start_over()
     opened.page.wait_for_timeout(800)
-    image = _shot(opened, pictures / "again.png")[200:, :870]
+    image = _shot(opened, pictures / "again.png")[:, 320:870]
     assert _like(image, slice(0, 60), slice(140, 200), slice(90, 150)) < 10  # nothing of the robot before
 
 
@@ -279,7 +279,7 @@ def test_a_recorded_motion_plays_offline(opened, browser, tmp_path, pictures):
     stop = "Stop, and save the motion (HTML)"
     opened.page.get_by_role("button", name=stop).wait_for()
     control = opened.view.page.controls[0]
-    for tension in np.linspace(3.0, 8.0, 8):
+    for tension in np.linspace(3.0, 6.0, 5):
         opened.view.page.move(control, float(tension))
         opened.page.wait_for_timeout(100)
     name, content = opened.download(stop)
@@ -287,7 +287,7 @@ def test_a_recorded_motion_plays_offline(opened, browser, tmp_path, pictures):
     assert len(content) < 8e6
     file = tmp_path / name
     file.write_bytes(content)
-    with browser.new_context(viewport={"width": 800, "height": 500}, offline=True) as context:
+    with browser.new_context(viewport={"width": 480, "height": 320}, offline=True) as context:
         page = context.new_page()
         asked: list[str] = []
         page.on("request", lambda request: asked.append(request.url))
@@ -300,4 +300,4 @@ def test_a_recorded_motion_plays_offline(opened, browser, tmp_path, pictures):
     assert all(url.startswith(("file:", "blob:", "data:")) for url in asked)
     assert played > 0.0  # s
     image = np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
-    assert _like(image, slice(0, 60), slice(60, 160), slice(120, 220)) > 100
+    assert _like(image, slice(0, 60), slice(60, 160), slice(120, 220)) > 20

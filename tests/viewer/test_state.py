@@ -56,7 +56,10 @@ def test_a_tendon_that_ends_early_stays_outside():
     robot = examples.load("two_tube_90")
     tendon = replace(robot.tendons[0], end=0.05)
     low = next(c.low for c in controls(robot.replace(tendons=(tendon,))) if c.key == ("insertion", "outer"))
-    assert 90.0 < low <= 91.0  # of 140 mm; the tendon ends 50 mm from the proximal end
+    assert low == pytest.approx(91.0)  # of 140 mm; the tendon ends 50 mm from the proximal end
+    stuck = replace(robot.tendons[0], end=1e-4)
+    found = next(c for c in controls(robot.replace(tendons=(stuck,))) if c.key == ("insertion", "outer"))
+    assert (found.low, found.high) == (140.0, 140.0) and found.step > 0
 
 
 def test_the_robot_of_a_state():

@@ -11,7 +11,8 @@ from tactr.statics.actuation import innermost_place
 
 Kind = Literal["tension", "displacement", "rotation", "insertion", "force"]
 AXES = ("x", "y", "z")
-STEPS = 200
+ROUNDING = 1e-6  # mm
+STEPS, SHORTEST = 200, 1e-6  # of a slider; its length, where it cannot move
 FALLBACK_TENSION, FALLBACK_FORCE = 5.0, 0.1
 LEAST_OUTSIDE = 0.05  # of a tube's length, by default
 QUARTER_TURN = 0.5 * math.pi
@@ -33,6 +34,10 @@ class Control:
     step: float
     value: float
 
+    def shown(self, value: float) -> float:
+        """A value as a slider shows it: to a tenth of a step, between its ends."""
+        return min(max(round(value, 1 - math.floor(math.log10(self.step))), self.low), self.high)
+
     @property
     def key(self) -> tuple[Kind, str]:
         """By which a state finds its value."""
@@ -49,9 +54,12 @@ def controls(robot: Robot) -> list[Control]:
 
 
 def most_tension(robot: Robot) -> float:
-    """Tension of the darkest colour, N: the most that a slider gives, or a profile holds."""
+    """Tension of the darkest colour, N: about the largest of the robot, or of its sliders."""
     held = [max(t.tension.values) for t in robot.tendons if isinstance(t.tension, TensionProfile)]
-    return max([*held, *(_tension_range(robot, tendon)[1] for tendon in robot.tendons)], default=1.0)
+    largest = max([*held, *map(_plain, robot.tendons)], default=1.0)
+    if largest > 0:
+        return round_up(largest)
+    return max(_tension_range(robot, tendon)[1] for tendon in robot.tendons)
 
 
 def _tendon(robot: Robot, tendon: Tendon) -> Control:
@@ -96,12 +104,15 @@ def _rotation(tube: Tube) -> Control:
 def _insertion(robot: Robot, tube: Tube) -> Control:
     furthest_in = -innermost_place(robot, tube)
     given = tube.limits.translation if tube.limits else None
-    low, high = given or (LEAST_OUTSIDE * tube.length - tube.length, 0.0)
-    low = max(
-        low, 1e-3 * math.ceil(1e3 * furthest_in)
-    )  # whole millimetres: the end of a tendon stays outside
+    low, high = given or (_millimetres(LEAST_OUTSIDE * tube.length) - tube.length, 0.0)
+    low = max(low, _millimetres(furthest_in + tube.length) - tube.length)  # ends of tendons stay outside
     low, high = min(low, tube.translation), max(high, tube.translation)
     return _control("insertion", tube.name, "mm", 1e3, low + tube.length, high + tube.length, tube.tip)
+
+
+def _millimetres(length: float) -> float:
+    """The next whole millimetre, m."""
+    return 1e-3 * math.ceil(1e3 * length - ROUNDING)
 
 
 def _force(robot: Robot, axis: str) -> Control:
@@ -123,7 +134,8 @@ def _control(
     """Limits in SI units; widened to the value, which a robot file may put beyond its limits."""
     ends = (round(factor * end, 9) for end in (min(low, value), max(high, value)))
     low, high = ends
-    return Control(kind, name, unit, factor, low, high, round_up((high - low) / STEPS), factor * value)
+    step = round_up(max(high - low, SHORTEST) / STEPS)
+    return Control(kind, name, unit, factor, low, high, step, factor * value)
 
 
 def round_up(number: float) -> float:

@@ -61,7 +61,6 @@ class Page(Outputs):
         self._busy = Busy(lambda: self.panel.status(busy_html()))
         self.worker: LatestWins[tuple[State, Settings]] = LatestWins(self._work, self._failed)
         self.panel = Panel(server, self, examples.names())
-        self.example_shown = source.partition('examples.load("')[2].partition('"')[0]
         self.load(robot, source, shape)
         server.on_client_connect(lambda client: self._aim(client))
 
@@ -79,8 +78,7 @@ class Page(Outputs):
                 self._scene.build(robot)
                 self.panel.build(robot, self.controls, self.most_tension)
                 self.panel.record.label = "Record a motion"
-                known = source == f'tactr.examples.load("{robot.name}")'
-                self.panel.example.value = robot.name if known else OWN_ROBOT
+                self.panel.example.value = _example_of(source)
                 self._work((self.state, self.settings))
         self.look(None)
 
@@ -275,3 +273,9 @@ class Page(Outputs):
             found = misfit(points, shape.centreline, shape.tip_position)
             self._scene.measured(points, found.gaps)
             self.panel.misfit(str(found))
+
+
+def _example_of(source: str) -> str:
+    """The name of the example that a program loads, or what stands for robots that are none."""
+    name = source.removeprefix('tactr.examples.load("').removesuffix('")')
+    return name if name in examples.names() else OWN_ROBOT

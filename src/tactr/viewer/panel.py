@@ -62,7 +62,6 @@ class Panel:
             self._add_settings()
         with tabs.add_tab("Files"):
             self._add_files()
-        self._sliders: dict[Any, Any] = {}
         self._folders: list[Any] = []
         self._on(self.example, page.choose_example)
 
@@ -70,7 +69,7 @@ class Panel:
         """Sliders, switches and curves for a robot."""
         for part in self._folders:
             part.remove()
-        self._folders, self._sliders = [], {}
+        self._folders = []
         self._about.content = legend_html(robot, most_tension)
         unknown = unknown_diameters(robot)
         text = f"No diameter is known of {', '.join(unknown)}: drawn as a guess." if unknown else ""
@@ -92,9 +91,8 @@ class Panel:
                         min=control.low,
                         max=control.high,
                         step=control.step,
-                        initial_value=float(np.clip(round(control.value, 4), control.low, control.high)),
+                        initial_value=control.shown(control.value),
                     )
-                    self._sliders[control.key] = slider
                     self._on(slider, lambda value, control=control: self._page.move(control, value))
 
     def _add_switches(self, robot: Robot) -> None:
@@ -137,7 +135,7 @@ class Panel:
 
     def _add_settings(self) -> None:
         gui, first = self._server.gui, Settings()
-        thickness = gui.add_slider("Thickness of tubes ×", min=1.0, max=6.0, step=0.5, initial_value=1.0)
+        thickness = gui.add_slider("Thickness ×", min=1.0, max=6.0, step=0.5, initial_value=1.0)
         self._on(thickness, lambda value: self._set(diameter_scale=value))
         self._unknown = gui.add_html("")
         switches = {
@@ -192,12 +190,6 @@ class Panel:
     def curves(self, shape: Shape) -> None:
         """The chart of a shape."""
         self._chart.data = curves(shape, self._quantity.value)
-
-    def set_sliders(self, values: dict[Any, float]) -> None:
-        """Slider handles to values in their units, as by a reset."""
-        for key, value in values.items():
-            slider = self._sliders[key]
-            slider.value = float(np.clip(round(value, 4), slider.min, slider.max))
 
     def show_text(self, title: str, text: str, client: Any) -> None:
         """A window with a text to copy."""

@@ -113,10 +113,10 @@ class Scene:
             )  # fmt: skip
 
     def _add_frames(self, robot: Robot, root: str) -> None:
-        count = FRAMES_PER_TUBE * len(robot.tubes)
+        count, reach = FRAMES_PER_TUBE * len(robot.tubes), max(tube.tip for tube in robot.tubes)
         self._frames = self._scene.add_batched_axes(
-            f"{root}/frames", np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)), axes_length=0.1,
-            axes_radius=0.005, visible=False,
+            f"{root}/frames", np.tile([1.0, 0, 0, 0], (count, 1)), np.zeros((count, 3)), visible=False,
+            axes_length=0.4 * reach, axes_radius=0.02 * reach,
         )  # fmt: skip
 
     def _add_surroundings(self, robot: Robot, root: str) -> None:
@@ -197,7 +197,7 @@ class Scene:
             return
         if self._measured is None:
             self._measured = self._scene.add_point_cloud(
-                "/measured/points", np.zeros((1, 3)), MEASURED_COLOUR, point_size=0.03, point_shape="diamond",
+                "/measured/points", np.zeros((1, 3)), MEASURED_COLOUR, point_size=0.02, point_shape="diamond",
                 precision="float32",
             )  # fmt: skip
             self._gaps = self._scene.add_line_segments(

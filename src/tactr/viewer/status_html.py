@@ -95,7 +95,7 @@ def legend_html(robot: Robot, most_tension: float) -> str:
     stops = ", ".join(f"rgb({r:.0f},{g:.0f},{b:.0f})" for r, g, b in SCALE)
     tendons = (
         f'<div style="white-space:nowrap">tendons 0 N <span style="display:inline-block;width:90px;'
-        f'height:9px;background:linear-gradient(90deg, {stops})"></span> {most_tension:g} N</div>'
+        f'height:9px;background:linear-gradient(90deg, {stops})"></span> {most_tension:g} N and more</div>'
     )
     text = " ".join(robot.description.split())
     about = f'<div style="color:#666">{escape(_short(text, 150))}</div>' if text else ""

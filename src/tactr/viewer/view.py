@@ -32,7 +32,11 @@ class View:
         self.url = f"http://{HOST}:{self.port}"
         self._gone, self._closed = threading.Event(), False
         self._leaving: threading.Timer | None = None
-        self.page = Page(self._server, robot, source or "...  # your robot", shape)
+        try:
+            self.page = Page(self._server, robot, source or "...  # your robot", shape)
+        except BaseException:
+            stop_server(self._server)
+            raise
         atexit.register(self.close)
         self._server.on_client_connect(lambda _: self._arrive())
         self._server.on_client_disconnect(lambda _: self._leave())
