@@ -31,7 +31,7 @@ def main() -> int:
     parser.add_argument("--robot", default="three_tube_a")
     parser.add_argument("--count", type=int, default=300)
     options = parser.parse_args()
-    command = [sys.executable, "-m", "tactr.cli", "view", options.robot, "--no-browser"]
+    command = [sys.executable, "-m", "tactr.cli", "view", options.robot, "--headless"]
     server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     try:
         assert server.stdout is not None

@@ -16,7 +16,7 @@ from tactr.cli import main
 from tactr.viewer import View
 from tactr.viewer.server import FIRST_PORT, PortTaken
 
-VIEW = [sys.executable, "-m", "tactr.cli", "view", "two_tube_90", "--no-browser"]
+VIEW = [sys.executable, "-m", "tactr.cli", "view", "two_tube_90", "--headless"]
 
 
 @pytest.fixture
@@ -56,12 +56,12 @@ def test_an_interrupt_ends_it(running):
 def test_a_used_port_is_told(capsys):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        assert main(["view", "--no-browser", "--port", str(port)]) == 2
+        assert main(["view", "--headless", "--port", str(port)]) == 2
         assert f"port {port} is in use: choose another" in capsys.readouterr().err
         with pytest.raises(PortTaken):
             View(tactr.examples.load("two_tube_90"), port=port)
-    assert main(["view", "--no-browser", "--port", "0"]) == 2
-    assert main(["view", "no_such_robot", "--no-browser"]) == 2
+    assert main(["view", "--headless", "--port", "0"]) == 2
+    assert main(["view", "no_such_robot", "--headless"]) == 2
 
 
 def test_two_views_get_ports_of_their_own():
@@ -82,5 +82,5 @@ def test_show_returns_a_view_when_not_asked_to_wait():
 
 def test_without_viser_the_extra_is_named(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "viser", None)
-    assert main(["view", "--no-browser"]) == 2
+    assert main(["view", "--headless"]) == 2
     assert "pip install 'tactr[view]'" in capsys.readouterr().err

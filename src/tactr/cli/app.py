@@ -73,11 +73,11 @@ def schema() -> int:
 
 
 @app.command
-def view(file: str = DEFAULT_EXAMPLE, /, *, port: int | None = None, no_browser: bool = False) -> int:
+def view(file: str = DEFAULT_EXAMPLE, /, *, port: int | None = None, headless: bool = False) -> int:
     """Show a robot in the browser, where everything can be moved."""
     from tactr.cli.view import run_view
 
-    return run_view(file, port=port, browser=not no_browser)
+    return run_view(file, port=port, browser=not headless)
 
 
 @app.command

@@ -60,7 +60,7 @@ Usage: tactr view [FILE] [OPTIONS]
   FILE           a robot file (.yaml, .toml) or the name of a built-in example; default two_tube_90
 
   --port NUMBER  where to serve the page; default: the first free port from 8080 on
-  --no-browser   do not open a browser: only say where the page is
+  --headless     do not open a browser: only say where the page is
 
 The page is served on this machine only (127.0.0.1) and asks no other for anything. Closing it ends the
 command, as does Ctrl-C. Needs the extra view: pip install 'tactr[view]'
