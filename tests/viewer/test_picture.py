@@ -14,7 +14,7 @@ from tactr.viewer.picture import picture
 from tactr.viewer.surface import SIDES, vertex_count
 from tactr.viewer.tension_colours import SCALE, SLACK, tension_colours
 from tactr.viewer.walls import STATIONS
-from tactr.viewer.widths import radii, unknown_diameters
+from tactr.viewer.widths import holds_tendons, radii, unknown_diameters
 
 
 @pytest.fixture(scope="module")
@@ -140,6 +140,12 @@ def test_widths_of_pieces_and_of_tubes_without_a_diameter():
     assert unknown_diameters(robot) == ("out", "in")
     bores = [radii(robot, k, np.zeros(1)) for k in (0, 1)]
     assert bores[0][1] >= bores[1][0]  # the inner one fits into the outer one
+
+
+def test_tubes_that_hold_tendons():
+    tacter, outside = examples.load("tacter"), examples.load("two_tube_90")
+    assert [holds_tendons(tacter, k) for k in (0, 1)] == [True, True]
+    assert [holds_tendons(outside, k) for k in (0, 1)] == [False, False]
 
 
 @pytest.mark.parametrize("length", [0.03, 0.14, 0.25, 0.5, 1.7])

@@ -35,7 +35,7 @@ def running() -> Iterator[tuple[subprocess.Popen, str]]:
 
 def test_closing_the_page_ends_it(running, browser):
     process, url = running
-    page = browser.new_page()
+    page = browser.new_page(viewport={"width": 480, "height": 320})
     page.goto(url)
     page.wait_for_selector("[data-tip]", timeout=30000)
     page.reload()  # is not the end

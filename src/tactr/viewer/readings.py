@@ -32,8 +32,6 @@ class Readings:
 
 def readings(shape: Shape) -> Readings:
     """The readings of a converged shape."""
-    names = [tendon.name for tendon in shape.robot.tendons]
-    lengths = shape._solution.tendon_length if names else []
     return Readings(
         tip=shape.tip_position,
         direction=shape.tip_orientation[:, 2],
@@ -41,7 +39,7 @@ def readings(shape: Shape) -> Readings:
         margin=shape.stability.margin,
         residual=shape.residual,
         solve_time=shape.solve_time,
-        lengths=dict(zip(names, map(float, lengths), strict=True)),
+        lengths={tendon.name: tendon.length for tendon in shape.tendons},
         tensions={
             tendon.name: float(tension) if isinstance(tendon.tension, float) else None
             for tendon, tension in zip(shape.robot.tendons, shape.tension, strict=True)

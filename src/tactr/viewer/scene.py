@@ -14,12 +14,14 @@ from tactr.viewer.picture import FRAMES_PER_TUBE, Picture
 from tactr.viewer.settings import Settings
 from tactr.viewer.surface import swept_faces, vertex_count
 from tactr.viewer.walls import STATIONS, Wall
+from tactr.viewer.widths import holds_tendons
 
 PER_METRE = 10.0
 """Units of the scene: a tenth of a metre each, because cameras like sizes near one."""
 
-GREYED, NESTED_OPACITY = "#b5b5b5", 0.72
+GREYED, NESTED_OPACITY, HOLLOW_OPACITY = "#b5b5b5", 0.72, 0.18
 TRACE_COLOUR, MEASURED_COLOUR, GAP_COLOUR = (30, 30, 30), (0, 0, 0), (204, 0, 119)
+AXIS_COLOURS = (200, 0, 0), (60, 160, 30)  # x, y: z is hidden in the robot
 HIDDEN = 1e-6  # scale of a disk that is not there
 
 
@@ -32,6 +34,13 @@ def rgb(colour: str) -> tuple[int, int, int]:
 def linear(colours: np.ndarray) -> np.ndarray:
     """Colours of lines for viser, which takes those at points for linear light (IEC 61966-2-1)."""
     return (255.0 * ((colours / 255.0 + 0.055) / 1.055) ** 2.4).round().astype(np.uint8)
+
+
+def _opacity(robot: Robot, tube: int, nested: bool) -> float | None:
+    """Of a part of a tube: one sees through it what runs inside."""
+    if holds_tendons(robot, tube):
+        return HOLLOW_OPACITY
+    return NESTED_OPACITY if nested else None
 
 
 class Scene:
@@ -61,7 +70,7 @@ class Scene:
         self._walls = [
             scene.add_mesh_simple(
                 f"{root}/tubes/{k}_{'nested' if nested else 'bare'}", nothing, faces, color=colours[k],
-                opacity=NESTED_OPACITY if nested else None, visible=False, side="double",
+                opacity=_opacity(robot, k, nested), visible=False, side="double",
                 cast_shadow=False, receive_shadow=False,
             )
             for k in range(len(robot.tubes)) for nested in (True, False)
@@ -149,9 +158,12 @@ class Scene:
                     f"{ground}/{name}_{1e3 * place:.0f}", text, position=at, font_screen_scale=0.8,
                     anchor="center-center", depth_test=False,
                 )  # fmt: skip
-        self._scene.add_frame(
-            f"{ground}/axes", axes_length=1.6 * reach, axes_radius=0.03 * reach,
-            origin_radius=0.03 * reach)  # fmt: skip
+        axes = 1.6 * reach * np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]])
+        axes[..., 2] = 0.02 * reach  # above the lines of the grid
+        colours = linear(np.repeat(np.array(AXIS_COLOURS)[:, None], 2, axis=1))
+        self._scene.add_line_segments(
+            f"{ground}/axes", axes, colours, thickness=3.0, thickness_units="screen"
+        )
 
     def update(self, drawn: Picture, settings: Settings) -> None:
         """Show a picture."""

@@ -72,7 +72,7 @@ class State:
 def as_python(state: State, source: str) -> str:
     """A program that solves the robot in this state; source: what loads it: 'tactr.load("a.yaml")'."""
     lines = ["import tactr"]
-    options = [f"    {name}={values!r}," for name, values in state.actuation.items()]
+    moved = [f"{name}={values!r}" for name, values in state.actuation.items()]
     changes = []
     if (host := HOSTS[state.host]) is not None:
         lines.insert(0, "from dataclasses import replace\n")
@@ -85,11 +85,6 @@ def as_python(state: State, source: str) -> str:
         changes.append(f"loads=[{own}{tip}]")
     lines += ["", f"robot = {source}"]
     lines += [f"robot = robot.replace({change})" for change in changes]
-    lines += [
-        "shape = tactr.solve(",
-        "    robot,",
-        *options,
-        ")",
-        "print(shape.tip_position, shape.stability)",
-    ]
+    lines.append(f"shape = tactr.solve({', '.join(['robot', *moved])})")
+    lines.append("print(shape.tip_position, shape.stability)")
     return "\n".join(lines) + "\n"

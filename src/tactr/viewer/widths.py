@@ -39,6 +39,17 @@ def widest(tube: Tube) -> float:
     return 0.5 * (tube.outer_diameter or 0.0)
 
 
+def holds_tendons(robot: Robot, index: int) -> bool:
+    """Whether a tendon runs inside a tube: its end lies within the tube's outside, on it or on one in it."""
+    inside = {tube.name: tube for tube in robot.tubes[index:]}
+    radius = widest(robot.tubes[index])
+    return any(
+        float(np.hypot(*tendon.routing.r(tendon.end or inside[tendon.tube].length))) < radius
+        for tendon in robot.tendons
+        if tendon.tube in inside
+    )
+
+
 def _unknown_radius(robot: Robot, index: int) -> float:
     longest = max(tube.length for tube in robot.tubes)
     further_in = len(robot.tubes) - 1 - index
