@@ -34,8 +34,10 @@ if TYPE_CHECKING:
         Straight,
         SymmetricNotches,
         Tendon,
+        TendonLimits,
         TensionProfile,
         Tube,
+        TubeLimits,
         VaryingStiffness,
     )
     from tactr.statics import (
@@ -59,6 +61,7 @@ if TYPE_CHECKING:
         solve,
         work,
     )
+    from tactr.viewer import View, show
 
 _HOME = {
     "tactr.calibration": ("Calibration", "Frame", "Measurements", "Parameter", "calibrate"),
@@ -85,8 +88,10 @@ _HOME = {
         "Straight",
         "SymmetricNotches",
         "Tendon",
+        "TendonLimits",
         "TensionProfile",
         "Tube",
+        "TubeLimits",
         "VaryingStiffness",
     ),
     "tactr.statics": (
@@ -110,6 +115,7 @@ _HOME = {
         "solve",
         "work",
     ),
+    "tactr.viewer": ("View", "show"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 _SUBMODULES = ("examples", "materials", "reference", "reproduce")
@@ -156,11 +162,14 @@ __all__ = [
     "SymmetricNotches",
     "TactrError",
     "Tendon",
+    "TendonLimits",
     "TendonShape",
     "TensionProfile",
     "Tube",
+    "TubeLimits",
     "TubeShape",
     "VaryingStiffness",
+    "View",
     "Work",
     "branches",
     "calibrate",
@@ -172,6 +181,7 @@ __all__ = [
     "reproduce",
     "rest_lengths",
     "save",
+    "show",
     "solve",
     "work",
 ]

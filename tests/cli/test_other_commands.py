@@ -34,7 +34,7 @@ def test_check(run, tmp_path):
         f'{bad}:2: tubes[0].length: is missing; expected length of the whole tube, such as "140 mm"',
         f"{bad}:3: tubes[0].lenght: is not a known key (did you mean length?); expected one of name, length, "
         "outer_diameter, inner_diameter, diameter, stiffness, notches, sections, material, precurvature, "
-        "translation, rotation",
+        "translation, rotation, limits",
         f'{bad}:4: tubes[0].diameter: 1 has no unit; expected a length such as "140 mm" (perhaps "1 mm")',
     ]
 
@@ -79,7 +79,11 @@ def test_help(run, words):
 
 def test_the_ready_made_help_is_complete():
     commands = [name for name in app if not name.startswith("-")]
-    assert sorted(commands) == sorted(COMMANDS) == ["check", "examples", "reproduce", "schema", "solve"]
+    assert (
+        sorted(commands)
+        == sorted(COMMANDS)
+        == ["calibrate", "check", "examples", "reproduce", "schema", "solve", "view"]
+    )
     for name in commands:
         assert re.search(rf"^  {name} ", HELP, re.MULTILINE)
         text = COMMANDS[name]
@@ -93,7 +97,9 @@ def test_the_ready_made_help_is_complete():
         assert set(re.findall(r"--(\w+)", text)) <= set(parameters)
 
 
-@pytest.mark.parametrize("command", ["solve", "check", "schema", "examples", "reproduce"])
+@pytest.mark.parametrize(
+    "command", ["calibrate", "check", "examples", "reproduce", "schema", "solve", "view"]
+)
 def test_help_of_commands(run, command):
     for words in ([command, "--help"], [command, "x", "-h"]):
         assert run(*words) == (0, COMMANDS[command], "")

@@ -118,6 +118,14 @@ def schema() -> int:
 
 
 @app.command
+def view(file: str = DEFAULT_EXAMPLE, /, *, port: int | None = None, headless: bool = False) -> int:
+    """Show a robot in the browser, where everything can be moved."""
+    from tactr.cli.view import run_view
+
+    return run_view(file, port=port, browser=not headless)
+
+
+@app.command
 def examples(name: str | None = None, /) -> int:
     """List the built-in example robots, or print one."""
     from tactr.cli.examples import run_examples

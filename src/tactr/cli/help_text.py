@@ -6,6 +6,7 @@ tactr: the shape of tendon-actuated concentric tube robots
 Usage: tactr COMMAND [ARGUMENTS]
 
   solve [FILE]       compute the shape of a robot and report it
+  view [FILE]        show a robot in the browser, where everything can be moved
   calibrate FILE DATA.csv
                      find a robot's numbers from measured points
   check FILE...      check robot files without solving
@@ -16,10 +17,12 @@ Usage: tactr COMMAND [ARGUMENTS]
   COMMAND --help     all options of a command
   --version          the version of tactr
 
-FILE is a robot file (.yaml, .toml) or the name of a built-in example; without it, solve takes two_tube_90.
+FILE is a robot file (.yaml, .toml) or the name of a built-in example; without it, solve and view take
+two_tube_90.
 
   tactr solve --tension outer=3 inner=2 --plot shape.png
   tactr solve my_robot.yaml --rotation inner="90 deg" --save shape.nc
+  tactr view my_robot.yaml
   tactr examples two_tube_90 > my_robot.yaml
 
 Exit codes: 0 done; 2 something is wrong with the input, or no equilibrium was found (the message says which
@@ -84,6 +87,20 @@ Usage: tactr calibrate FILE DATA.csv --free PATH... [OPTIONS]
 Without --free and --common the robot is judged as it is. Exit code 2: something is wrong with the input.
 """
 
+VIEW = """\
+tactr view: show a robot in the browser, where everything can be moved
+
+Usage: tactr view [FILE] [OPTIONS]
+
+  FILE           a robot file (.yaml, .toml) or the name of a built-in example; default two_tube_90
+
+  --port NUMBER  where to serve the page; default: the first free port from 8080 on
+  --headless     do not open a browser: only say where the page is
+
+The page is served on this machine only (127.0.0.1) and asks no other for anything. Closing it ends the
+command, as does Ctrl-C. Needs the extra view: pip install 'tactr[view]'
+"""
+
 CHECK = """\
 tactr check: check robot files without solving; every problem is listed with its line
 
@@ -125,6 +142,7 @@ Exit code 2: the report cannot be written, or matplotlib is missing.
 
 COMMANDS = {
     "solve": SOLVE,
+    "view": VIEW,
     "calibrate": CALIBRATE,
     "check": CHECK,
     "schema": SCHEMA,

@@ -26,6 +26,7 @@ from tactr.robot import (
     Spline,
     Straight,
     Tendon,
+    TendonLimits,
     TensionProfile,
 )
 
@@ -92,6 +93,8 @@ def _tendon(data: dict[str, Any]) -> Tendon:
     values["routing"] = under("routing", lambda: _routing(data["routing"]))
     if isinstance(data.get("tension"), dict):
         values["tension"] = under("tension", lambda: TensionProfile(**data["tension"]))
+    if "limits" in data:
+        values["limits"] = under("limits", lambda: TendonLimits(**data["limits"]))
     return Tendon(**values)
 
 

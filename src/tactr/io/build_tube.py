@@ -19,6 +19,7 @@ from tactr.robot import (
     Stiffness,
     SymmetricNotches,
     Tube,
+    TubeLimits,
     VaryingStiffness,
 )
 
@@ -47,6 +48,8 @@ def build_tube(data: dict[str, Any]) -> Tube:
         values["material"] = _materials(data["material"])
     if "precurvature" in data:
         values["precurvature"] = _rest(data["precurvature"])
+    if "limits" in data:
+        values["limits"] = under("limits", lambda: TubeLimits(**data["limits"]))
     try:
         return Tube(**values)
     except RobotError as error:

@@ -98,6 +98,13 @@ PROFILE = Record(
         "values": Field(Items(FORCE), 'tensions there, such as ["3 N", "2.5 N"]', required=True),
     },
 )
+TENDON_LIMITS = Record(
+    "How far a tendon's actuator goes: [least, most].",
+    {
+        "tension": Field(Items(FORCE, 2), 'such as [0, "5 N"]'),
+        "displacement": Field(Items(LENGTH, 2), 'such as ["-2 mm", "5 mm"]'),
+    },
+)
 TENDON = Record(
     "One tendon.",
     {
@@ -129,6 +136,7 @@ TENDON = Record(
             "in the robot without loads at the present rotations and translations",
         ),
         "end": Field(LENGTH, "arc length of the tube where it ends; default: the tube's tip"),
+        "limits": Field(TENDON_LIMITS, "how far its actuator goes, for sliders"),
     },
 )
 POINT_LOAD = Record(

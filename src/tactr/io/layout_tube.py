@@ -188,6 +188,13 @@ REST = Variants(
         ),
     ),
 )
+TUBE_LIMITS = Record(
+    "How far a tube's actuators go: [least, most].",
+    {
+        "rotation": Field(Items(ANGLE, 2), 'such as ["-180 deg", "180 deg"]'),
+        "translation": Field(Items(LENGTH, 2), 'z of the proximal end, such as ["-60 mm", 0]'),
+    },
+)
 TUBE = Record(
     "One tube: its section is outer_diameter and inner_diameter, or diameter (a solid rod), or stiffness; or "
     "sections, one after the other.",
@@ -209,6 +216,7 @@ TUBE = Record(
             LENGTH, "z of the proximal end: 0 at the guide's exit (the default), negative behind it"
         ),
         "rotation": Field(ANGLE, "angle about +z imposed at the proximal end; default 0"),
+        "limits": Field(TUBE_LIMITS, "how far its actuators go, for sliders"),
     },
     given(*SECTIONS, "sections"),
     choice=f"{CHOICE}, or sections",

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from tactr.errors import RobotError
-from tactr.io.unbuild_tube import ZERO, powers, unbuild_tube, write, write_vector
+from tactr.io.unbuild_tube import ZERO, powers, unbuild_tube, write, write_ranges, write_vector
 from tactr.robot import (
     DistributedLoad,
     Gravity,
@@ -79,6 +79,8 @@ def _tendon(tendon: Tendon, place: str) -> dict[str, Any]:
     data |= _motor(tendon)
     if tendon.end is not None:
         data["end"] = write(tendon.end, "length")
+    if tendon.limits is not None:
+        data["limits"] = write_ranges(tendon.limits, tension="force", displacement="length")
     return data
 
 

@@ -36,6 +36,12 @@ def write_vector(value: Sequence[float], kind: str) -> list[str | int]:
     return [write(component, kind) if component else 0 for component in value]
 
 
+def write_ranges(limits: object, **kinds: str) -> dict[str, list[str | int]]:
+    """The ranges there are, by name; kinds: of their quantities."""
+    ranges = {name: getattr(limits, name) for name in kinds}
+    return {name: write_vector(ends, kinds[name]) for name, ends in ranges.items() if ends is not None}
+
+
 def powers(coefficients: Sequence[float], base: str) -> list[Any]:
     """Coefficients of a polynomial of the kind ``base``, with their units."""
     kinds = [coefficient_kind(base, power) for power in range(len(coefficients))]
@@ -68,6 +74,8 @@ def unbuild_tube(tube: Tube, place: str) -> dict[str, Any]:
         data["translation"] = write(tube.translation, "length")
     if tube.rotation:
         data["rotation"] = write(tube.rotation, "angle")
+    if tube.limits is not None:
+        data["limits"] = write_ranges(tube.limits, rotation="angle", translation="length")
     return data
 
 

@@ -2,6 +2,7 @@
 
 from tactr.robot.along import Along
 from tactr.robot.fitted import Function, Spline
+from tactr.robot.limits import TendonLimits, TubeLimits
 from tactr.robot.load import DistributedLoad, Gravity, Load, PointLoad
 from tactr.robot.material import Material
 from tactr.robot.notches import AsymmetricNotches, SymmetricNotches
@@ -40,7 +41,9 @@ __all__ = [
     "Straight",
     "SymmetricNotches",
     "Tendon",
+    "TendonLimits",
     "TensionProfile",
     "Tube",
+    "TubeLimits",
     "VaryingStiffness",
 ]

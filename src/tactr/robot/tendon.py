@@ -10,6 +10,7 @@ import numpy as np
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
+from tactr.robot.limits import TendonLimits, plain_limits
 from tactr.robot.routing import Routing
 
 Host = Literal["own", "outermost"]
@@ -62,7 +63,8 @@ class Tendon:
     B), "outermost" when disks on the outermost tube present guide it (approach A). Each host reads the path
     in its own material frame: where the host changes between tubes turned against each other, the path jumps
     sideways, and the tendon's pull beyond, force and moment, passes to the end of the outer one. end: sigma
-    in m where it is fixed; None for the tube's distal end. Raises RobotError.
+    in m where it is fixed; None for the tube's distal end. limits: how far its actuator goes, if known.
+    Raises RobotError.
 
     It is pulled by a tension (N, at least 0, or a TensionProfile), or by a displacement (m, positive pulls,
     None: none) of its motor, which rides on the proximal end of its tube. Under a displacement d its tension
@@ -89,6 +91,7 @@ class Tendon:
     pretension: float = 0.0
     rest_length: float | None = None
     end: float | None = None
+    limits: TendonLimits | None = None
 
     def __post_init__(self) -> None:
         name = check.name("name", self.name)
@@ -103,6 +106,7 @@ class Tendon:
                 check.store(self, rest_length=check.real("rest_length", self.rest_length, "m", above=0))
             if self.displacement is not None and self.tension != 0.0:
                 raise both_given("displacement", self.displacement)
+            check.store(self, limits=plain_limits(self.limits, TendonLimits))
             if self.end is not None:
                 check.store(self, end=check.real("end", self.end, "m", above=0))
 

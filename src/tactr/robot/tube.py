@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
+from tactr.robot.limits import TubeLimits, plain_limits
 from tactr.robot.material import Material
 from tactr.robot.parts import Part, check_parts, parts_of, plain_material, plain_section
 from tactr.robot.pieces import Pieces, PiecesLike, PrecurvatureLike, Vector3, plain_precurvature
@@ -27,7 +28,8 @@ class Tube:
     either one triple, or pieces ``(start, (ux, uy, uz))``, stored as pieces; or a RestShape, for smooth ones
     and rest shear and stretch. Pieces hold from ``start`` on, where start is the tube's own arc length sigma
     in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
-    (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. Raises RobotError.
+    (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. limits: how far its
+    actuators go, if known. Raises RobotError.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Tube:
     precurvature: Pieces[Vector3] | RestShape = ((0.0, (0.0, 0.0, 0.0)),)
     translation: float = 0.0
     rotation: float = 0.0
+    limits: TubeLimits | None = None
 
     if TYPE_CHECKING:  # the constructor takes more forms than the fields store
 
@@ -51,6 +54,7 @@ class Tube:
             precurvature: PrecurvatureLike = (0.0, 0.0, 0.0),
             translation: float = 0.0,
             rotation: float = 0.0,
+            limits: TubeLimits | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -61,6 +65,7 @@ class Tube:
             check.store(
                 self, translation=plain_translation(self.translation), rotation=plain_rotation(self.rotation)
             )
+            check.store(self, limits=plain_limits(self.limits, TubeLimits))
             check.store(self, section=plain_section(self.section, length))
             check.store(self, material=plain_material(self.material, length))
             check.store(self, precurvature=plain_precurvature(self.precurvature, length))

@@ -1,0 +1,77 @@
+"""A viser server on the loopback address that asks nobody else for anything."""
+
+from __future__ import annotations
+
+import io
+import socket
+from contextlib import redirect_stdout
+from typing import Any
+
+from tactr.errors import MissingExtra, TactrError
+
+HOST = "127.0.0.1"
+FIRST_PORT, MOST_PORTS = 8080, 50
+
+
+class PortTaken(TactrError):
+    """The port asked for is in use."""
+
+
+def make_server(port: int | None = None) -> Any:
+    """A server; port: that one or none (PortTaken), None: the first free one from 8080 on. Raises
+    MissingExtra."""
+    try:
+        import viser
+    except ImportError:
+        raise MissingExtra("viser", "view", "the page") from None
+    with redirect_stdout(io.StringIO()):  # viser draws a table
+        server = viser.ViserServer(host=HOST, port=_free_port(port), verbose=False)
+    _refuse_sharing(server)
+    server.gui.configure_theme(
+        control_width="large", show_logo=False, show_share_button=False, brand_color=(0, 114, 178)
+    )
+    _light(server.scene)
+    server.scene.set_up_direction("+z")
+    return server
+
+
+def stop_server(server: Any) -> None:
+    """Stop a server without a word."""
+    with redirect_stdout(io.StringIO()):
+        server.stop()
+
+
+def _free_port(port: int | None) -> int:
+    if port is not None:
+        if not _is_free(port):
+            raise PortTaken(
+                f"port {port} is in use: choose another, or leave --port away to get the next free one"
+            )
+        return port
+    for candidate in range(FIRST_PORT, FIRST_PORT + MOST_PORTS):
+        if _is_free(candidate):
+            return candidate
+    raise PortTaken(f"ports {FIRST_PORT} to {FIRST_PORT + MOST_PORTS - 1} are all in use: choose one")
+
+
+def _is_free(port: int) -> bool:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((HOST, port))
+        except OSError:
+            return False
+    return True
+
+
+def _light(scene: Any) -> None:
+    """Even light: viser's environment maps wash colours out, and its own lamps alone leave sides black."""
+    scene.configure_environment_map(None)
+    scene.configure_default_lights(enabled=True, cast_shadow=False)
+    scene.add_light_ambient("/light/ambient", intensity=2.2)
+    scene.add_light_directional("/light/side", intensity=1.2, position=(4.0, -6.0, 2.0))
+
+
+def _refuse_sharing(server: Any) -> None:
+    """A page may ask viser to open a tunnel to a machine outside; this one stays here."""
+    server.request_share_url = lambda verbose=True: None
