@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tactr.calibration.align import best_turn
 from tactr.calibration.frame import Frame
 from tactr.calibration.hold_out import distances
 from tactr.calibration.identify import Knowledge
@@ -139,12 +140,9 @@ def _axes(data: Measurements, first: np.ndarray, found: Found) -> list[Remark]:
 
 
 def _left_over(p: np.ndarray, q: np.ndarray, mirror: bool) -> float:
-    """Root mean square of coordinates after the best shift and turn of p (mirrored) to q (Kabsch 1976)."""
-    a, b = p - p.mean(axis=0), q - q.mean(axis=0)
-    u, _, v = np.linalg.svd(a.T @ b)
-    hand = (-1.0 if mirror else 1.0) * np.sign(np.linalg.det(u @ v))
-    turn = u @ np.diag([1.0, 1.0, hand]) @ v
-    return float(np.sqrt(np.mean((a @ turn - b) ** 2)))
+    """Root mean square of coordinates after the best shift and turn of p (mirrored) to q."""
+    turn = best_turn(p, q, mirror=mirror)
+    return float(np.sqrt(np.mean(((p - p.mean(axis=0)) @ turn.T - (q - q.mean(axis=0))) ** 2)))
 
 
 def _outliers(data: Measurements, found: Found, loss: str) -> list[Remark]:

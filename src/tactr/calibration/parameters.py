@@ -63,11 +63,11 @@ class Parameter:
     "tubes.outer.E"); "tendons.NAME.zero" (m, what the motor has pulled where its reading is 0; negative:
     slack); "marker.x" (m, of the tip's marker from the tip, in its material frame; also y, z); "sensor.x" (m,
     where the robot's origin is in the sensor's axes; also y, z) and "sensor.rx" (rad, rotation vector from
-    the robot's axes to the sensor's; also ry, rz). * stands for any name or step: one parameter for each
-    that fits, or, with ``common``, one number for all. start: where the search begins, None: where the robot
-    is. lower, upper: bounds. prior: mean and standard deviation of what is known of it beforehand. scale:
-    how much of it matters; a standard error beyond says that the data do not see it; None: its value, or
-    what is usual for its kind. All in SI units. Raises RobotError.
+    the robot's axes to the sensor's; also ry, rz). * stands for any name or step, [abc] for one of these
+    characters: one parameter for each that fits or, with ``common``, one number for all. start: where the
+    search begins, None: where the robot is. lower, upper: bounds. prior: mean and standard deviation of what
+    is known of it beforehand. scale: how much of it matters; a standard error beyond says that the data do
+    not see it; None: its value, or what is usual for its kind. All in SI units. Raises RobotError.
     """
 
     path: str
@@ -135,16 +135,12 @@ def expanded(
 def _matching(robot: Robot, path: str, known: list[str]) -> list[str]:
     short = f"{path[:-2]}.material{path[-2:]}" if path.endswith((".E", ".G")) else path
     for each in (path, short):
-        found = [candidate for candidate in known if fnmatch.fnmatchcase(candidate, _escaped(each))]
+        found = [candidate for candidate in known if fnmatch.fnmatchcase(candidate, each)]
         if found:
             return found
     raise RobotError(
         "parameters", f"nothing of the robot is called {path!r}", check.near(path, known)[:600], value=path
     )
-
-
-def _escaped(path: str) -> str:
-    return path.replace("[", "[[]")
 
 
 def known_paths(robot: Robot, measured: Sequence[str]) -> list[str]:
