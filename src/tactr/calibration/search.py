@@ -120,7 +120,7 @@ class _Least:
         return least_squares(
             fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._loss,
             f_scale=TUNING,
-            xtol=1e-8, ftol=1e-9, gtol=1e-12, max_nfev=STEPS,
+            xtol=1e-8, ftol=1e-6, gtol=1e-12, max_nfev=STEPS,
         )  # fmt: skip
 
     def _from_priors(self, values: np.ndarray) -> np.ndarray:
