@@ -19,6 +19,7 @@ import numpy as np
 
 import tactr
 from tactr import Calibration, Measurements, Parameter, Robot
+from tactr.io.files import dumps
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ROOT.parent / "shared" / "data" / "ftdcr_v4"
@@ -70,9 +71,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     fit = calibrated(robot, data, options.every)
     print(f"\ncalibrated on one of {options.every} rows:\n\n{fit}\n")
     print(where_the_errors_sit(fit, data))
+    print(f"\nframe: {fit.frame}")
     if options.save is not None:
-        tactr.save(fit.robot, options.save)
-        print(f"\nwrote {options.save}; frame: {fit.frame}")
+        options.save.write_text(robot_file(fit), encoding="utf-8")
+        print(f"wrote {options.save}")
 
 
 def load(name: str = "train") -> tuple[Robot, Measurements]:
@@ -85,6 +87,26 @@ def load(name: str = "train") -> tuple[Robot, Measurements]:
 def calibrated(robot: Robot, data: Measurements, every: int = TRAIN_EVERY) -> Calibration:
     """With all that the physics of the model has a name for, on one of so many rows."""
     return tactr.calibrate(robot, data.rows(slice(0, None, every)), parameters=FULL)
+
+
+def robot_file(fit: Calibration) -> str:
+    """The calibrated robot, its numbers to six digits, and where the sensor saw it."""
+    robot = fit.robot.replace(
+        name="ftdcr_calibrated",
+        description=(
+            "The robot ftdcr with what its recordings say of it (benchmarks/ftdcr.py, docs/model_card.md): "
+            "angles, offset and elasticity of the tendons, lengths at which the motors read zero, curvature "
+            f"and weight. The sensor saw its base at {_rounded(fit.frame.position, 1e3)} mm, turned by the "
+            f"rotation vector {_rounded(fit.frame.rotation, 180.0 / np.pi)} deg."
+        ),
+        assumed=("tubes[0].material: E and nu as in ftdcr; displacements see E times compliance only",),
+    )
+    text = re.sub(r"-?\d+\.\d{4,}(e-?\d+)?", lambda number: f"{float(number[0]):.6g}", dumps(robot))
+    return f"# the real robot ftdcr, calibrated on its recordings\n{text}"
+
+
+def _rounded(vector: Sequence[float], factor: float) -> str:
+    return "(" + ", ".join(f"{factor * component:.3f}" for component in vector) + ")"
 
 
 def blocks(data: Measurements, count: int, apart: int) -> Split:
@@ -127,7 +149,7 @@ def told(error: np.ndarray, label: np.ndarray) -> str:
 
 
 def where_the_errors_sit(fit: Calibration, data: Measurements) -> str:
-    """By kind of motion, along the motion, and against what two passes at the same displacements differ by."""
+    """By kind of motion, along the motion, and against how far two passes are apart."""
     residual = (fit.predict(data) - data.points)[:, 0] * 1e3
     error, split = np.linalg.norm(residual, axis=1), motions(data)
     names = split.name.partition("(")[2].rstrip(")").split(", ")
@@ -149,11 +171,11 @@ def where_the_errors_sit(fit: Calibration, data: Measurements) -> str:
 
 
 def _passes(data: Measurements, residual: np.ndarray) -> tuple[int, float]:
-    """How many pairs of rows nearly share their displacements, and how far their residuals are apart, mm."""
-    from scipy.spatial import cKDTree
+    """How many pairs of rows nearly share displacements, and how far their residuals are apart, mm."""
+    from scipy.spatial import KDTree
 
     displacement = np.stack(list(data.displacement.values()), axis=1)
-    pairs = cKDTree(displacement).query_pairs(0.5e-3, output_type="ndarray")
+    pairs = KDTree(displacement).query_pairs(0.5e-3, output_type="ndarray")
     pairs = pairs[np.abs(pairs[:, 0] - pairs[:, 1]) > 8]
     apart = np.linalg.norm(residual[pairs[:, 0]] - residual[pairs[:, 1]], axis=1)
     rows = np.concatenate([pairs[:, 0], pairs[:, 1]])

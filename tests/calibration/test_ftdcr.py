@@ -1,4 +1,4 @@
-"""A real robot: calibrated on recordings, judged on what was held out; benchmarks/ftdcr.py gives all figures."""
+"""A real robot, judged on recordings that were held out; benchmarks/ftdcr.py gives all figures."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def benchmark_module():
 
 
 def test_single_pulls_out_predict_the_way_back(shared: Path) -> None:
-    """Each tendon pulled alone: calibrated on the way out, judged on the way back, which friction makes another
-    one: by about 6 mm where the tip moves 35 to 115 mm."""
+    """Each tendon pulled alone: calibrated on the way out, judged on the way back, where friction leaves the
+    tip elsewhere."""
     data = recordings(shared, "tendon_pull").rows(slice(0, None, 2))
     robot = tactr.examples.load("ftdcr")
     pulled = np.max(np.stack([data.displacement[tendon.name] for tendon in robot.tendons], axis=1), axis=1)

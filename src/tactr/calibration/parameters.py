@@ -11,7 +11,7 @@ from typing import Any
 from tactr.calibration.frame import Frame
 from tactr.errors import RobotError
 from tactr.io.unit_table import KINDS, Kind
-from tactr.robot import Robot
+from tactr.robot import DistributedLoad, Robot
 from tactr.robot import _check as check
 from tactr.statics.parameters import value_of
 
@@ -171,7 +171,7 @@ def _walk(owner: Any, path: str, paths: list[str]) -> None:
 
 def _free(robot: Robot, frame: Frame, parameter: Parameter, paths: Sequence[str]) -> Free:
     name = parameter.path if len(paths) > 1 else paths[0]
-    kind, last = kind_of(paths[0]), paths[0].rpartition(".")[2]
+    kind, last = kind_of(robot, paths[0]), paths[0].rpartition(".")[2]
     values = [_value(robot, frame, path) for path in paths]
     start = parameter.start if parameter.start is not None else sum(values) / len(values)
     lower, upper = parameter.lower, parameter.upper
@@ -206,13 +206,22 @@ def vector_of(path: str) -> str:
     )
 
 
-def kind_of(path: str) -> Kind:
-    """The kind of quantity that a path names."""
+def kind_of(robot: Robot, path: str) -> Kind:
+    """The kind of quantity that a path of the robot names, which may hold *."""
     last = path.rpartition(".")[2]
     for step, kind in INSIDE.items():
         if f".{step}." in path:
-            return KINDS[kind]
+            return KINDS[f"{kind} per length" if _is_along(robot, path) else kind]
     for kind, words in KIND_OF.items():
         if last in words and not path.startswith("marker"):
             return KINDS[kind]
     return KINDS["length"]
+
+
+def _is_along(robot: Robot, path: str) -> bool:
+    """Whether a path is of a load along a length, not at a point."""
+    group, _, rest = path.partition(".")
+    index = rest.partition(".")[0]
+    if group != "loads" or not index.isdigit() or int(index) >= len(robot.loads):
+        return False
+    return isinstance(robot.loads[int(index)], DistributedLoad)
