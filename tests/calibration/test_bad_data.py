@@ -228,3 +228,11 @@ def test_points_beyond_the_robot() -> None:
     data = Measurements(np.full((3, 3), 0.1), places=(0.5,), displacement={"t0": np.zeros(3)})
     with pytest.raises(RobotError, match="ends at 200 mm"):
         tactr.calibrate(ROBOT, data, parameters=[], frame=Frame())
+
+
+def test_zeros_of_tendons_on_tubes_that_move() -> None:
+    data = Measurements(
+        np.full((9, 3), 0.1), displacement={"t0": np.zeros(9)}, rotation={"rod": np.linspace(0.0, 1.0, 9)}
+    )
+    with pytest.raises(RobotError, match=r"tendons\.t0\.zero.*rest_length"):
+        tactr.calibrate(ROBOT, data, parameters=["tendons.t0.zero"])

@@ -64,9 +64,7 @@ def test_nothing_free_judges_the_robot() -> None:
     rows = data()
     fit = tactr.calibrate(simulated.tension_robot(), rows, parameters=[])
     assert not fit.estimates and fit.error.mean() == pytest.approx(1.6 * simulated.NOISE, rel=0.3)
-    assert fit.robot == simulated.tension_robot().with_actuation(
-        tension={n: v[0] for n, v in rows.tension.items()}
-    )
+    assert fit.robot == simulated.tension_robot()
 
 
 def test_progress_is_told() -> None:

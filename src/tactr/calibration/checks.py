@@ -12,7 +12,7 @@ from tactr.calibration.hold_out import distances
 from tactr.calibration.identify import Knowledge
 from tactr.calibration.measurements import Measurements, Remark, seen
 from tactr.calibration.model import Model
-from tactr.calibration.parameters import Free
+from tactr.calibration.parameters import ZERO, Free
 from tactr.calibration.search import Found
 from tactr.errors import RobotError
 from tactr.robot import Robot
@@ -31,6 +31,7 @@ def before(robot: Robot, frame: Frame, data: Measurements, frees: Sequence[Free]
     if count + known < len(frees):
         found = f"{len(frees)} free numbers, but only {count} coordinates measured in {len(data)} rows"
         raise RobotError("parameters", found, "more rows, fewer free parameters, or priors")
+    _check_zeros(robot, data, frees)
     reach = max(tube.tip for tube in robot.tubes)
     _check_points(data, frame, frees, reach)
     longest = max(tube.length for tube in robot.tubes)
@@ -43,6 +44,16 @@ def before(robot: Robot, frame: Frame, data: Measurements, frees: Sequence[Free]
                 found = f"{np.abs(values).max():.4g} {unit} is more than a robot can take; is the unit right?"
                 raise RobotError(f"{kind}.{name}", found, f"at most {most:.4g} {unit}", value=values)
     return list(data.remarks)
+
+
+def _check_zeros(robot: Robot, data: Measurements, frees: Sequence[Free]) -> None:
+    """A zero is a length at which a tendon is tied: one that is zeroed anew wherever its tubes are has none."""
+    zeros = [path for free in frees for path in free.paths if path.endswith(f".{ZERO}")]
+    for path in zeros if data.rotation or data.translation else ():
+        name = path.split(".", 1)[1].rpartition(".")[0]
+        if robot.tendon(name).rest_length is None:
+            found = "its tube moves in the data, and the tendon is zeroed anew at every place of it"
+            raise RobotError(path, found, "a rest_length of the tendon (see tactr.rest_lengths)")
 
 
 def _check_points(data: Measurements, frame: Frame, frees: Sequence[Free], reach: float) -> None:
