@@ -164,7 +164,7 @@ def where_the_errors_sit(fit: Calibration, data: Measurements) -> str:
             f"all rows: mean error {error.mean():.2f} mm; by kind of motion: {kinds}",
             f"along the motion the prediction is {along.mean():.2f} mm ahead (spread {along.std():.2f} mm)",
             f"{pairs} pairs of rows, more than 8 rows apart, have displacements within 0.5 mm: their errors",
-            f"differ by {apart:.2f} mm, half of which, {apart / 2:.2f} mm, no function of displacements explains",
+            f"differ by {apart:.2f} mm, half of which no function of displacements explains",
         ]
     )
 

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import simulated
 
 import tactr
 from tactr import FileError, Frame, Measurements, Parameter, RobotError
+
+from . import simulated
 
 HEADER = "displacement.t0 [mm],displacement.t1 [mm],displacement.t2 [mm],tip.x [mm],tip.y [mm],tip.z [mm]"
 ROBOT = simulated.displacement_robot()

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import simulated
 
 import tactr
 from tactr import Measurements
+
+from . import simulated
 
 FREE = ["tubes.rod.E", "sensor.x", "sensor.y"]
 
@@ -44,7 +45,7 @@ def test_blocks_and_groups() -> None:
 
 def test_the_error_of_a_true_model_is_that_of_the_sensor() -> None:
     """The mean length of a vector of three normal numbers of deviation 1 is sqrt(8 / pi)."""
-    fit = calibrated(data(60), folds=5)
+    fit = calibrated(data(48), folds=3)
     assert fit.hold_out is not None
     assert fit.hold_out.mean == pytest.approx(simulated.NOISE * np.sqrt(8 / np.pi), rel=0.15)
     assert fit.hold_out.mean > fit.error.mean()

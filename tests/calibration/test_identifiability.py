@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import simulated
 
 import tactr
 from tactr import Frame, Material, Parameter, Robot, Rod, Tendon, Tube
 from tactr.statics.parameters import value_of
+
+from . import simulated
 
 FREE = ("tubes.rod.material.E", "tendons.*.compliance")
 

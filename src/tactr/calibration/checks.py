@@ -47,7 +47,7 @@ def before(robot: Robot, frame: Frame, data: Measurements, frees: Sequence[Free]
 
 
 def _check_zeros(robot: Robot, data: Measurements, frees: Sequence[Free]) -> None:
-    """A zero is a length at which a tendon is tied: one that is zeroed anew wherever its tubes are has none."""
+    """A zero says where a tendon is tied: one that is zeroed anew wherever its tubes are has none."""
     zeros = [path for free in frees for path in free.paths if path.endswith(f".{ZERO}")]
     for path in zeros if data.rotation or data.translation else ():
         name = path.split(".", 1)[1].rpartition(".")[0]

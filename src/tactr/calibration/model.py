@@ -113,17 +113,20 @@ class Model:
 
     def _as_given(self, robot: Robot) -> Robot:
         """With the actuation that was measured as the robot had it before."""
-        tendons, tubes = list(robot.tendons), list(robot.tubes)
-        for kind in ACTUATION:
-            members, own = (
-                (tendons, self._given.tendons)
-                if kind in ("displacement", "tension")
-                else (tubes, self._given.tubes)
+        data, before = self.measured, self._given
+        pulled = {*data.displacement, *data.tension}
+        tendons = [
+            replace(own, displacement=old.displacement, tension=old.tension) if own.name in pulled else own
+            for own, old in zip(robot.tendons, before.tendons, strict=True)
+        ]
+        tubes = [
+            replace(
+                own,
+                rotation=old.rotation if own.name in data.rotation else own.rotation,
+                translation=old.translation if own.name in data.translation else own.translation,
             )
-            for k, before in enumerate(own):
-                if before.name in getattr(self.measured, kind):
-                    fields = ("displacement", "tension") if members is tendons else (kind,)
-                    members[k] = replace(members[k], **{field: getattr(before, field) for field in fields})
+            for own, old in zip(robot.tubes, before.tubes, strict=True)
+        ]
         return robot.replace(tendons=tuple(tendons), tubes=tuple(tubes))
 
     def _actuation(self, setting: Setting) -> dict[str, np.ndarray]:
