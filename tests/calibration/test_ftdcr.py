@@ -76,7 +76,8 @@ def test_held_out_blocks_in_time(shared: Path, benchmark_module) -> None:
     split = benchmark_module.blocks(data, 20, 4)
     held = split.label == 1
     train = data.rows(np.flatnonzero(~held)[::12])
-    fit = tactr.calibrate(tactr.examples.load("ftdcr"), train, parameters=benchmark_module.FULL)
+    robot, free = tactr.examples.load("ftdcr"), benchmark_module.FULL
+    fit = tactr.calibrate(robot, train, parameters=free, noise=benchmark_module.NOISE)
     error = fit.errors(data.rows(held))
     assert np.isfinite(error).all()
     assert error.mean() < 4.2e-3
