@@ -37,7 +37,7 @@ KNOWN_BEND = [Parameter(path, prior=(0.0, 0.5)) for path in BEND]
 STEPS: dict[str, list[str | Parameter]] = {
     "angles and elasticity of the tendons": ["sensor.z", COMPLIANCE, PHASES],
     "+ zeros of the motors, tilt of the base": [*SENSOR, COMPLIANCE, PHASES, ZEROS],
-    "+ offset of the tendons, curvature of the backbone": [*SENSOR, COMPLIANCE, PHASES, ZEROS, RADIUS, *BEND],
+    "+ offset of the tendons, curvature of the rod": [*SENSOR, COMPLIANCE, PHASES, ZEROS, RADIUS, *BEND],
     "+ weight": [*SENSOR, COMPLIANCE, PHASES, ZEROS, RADIUS, *BEND, WEIGHT],
     "+ priors": [*SENSOR, COMPLIANCE, PHASES, KNOWN_ZEROS, RADIUS, *KNOWN_BEND, WEIGHT],
 }

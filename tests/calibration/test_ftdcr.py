@@ -13,7 +13,7 @@ import tactr
 from tactr import Frame, Measurements, Parameter
 
 ROOT = Path(__file__).resolve().parents[2]
-FRAME = Frame(position=(0.581e-3, 2.418e-3, 1.699e-3), rotation=tuple(np.radians((1.149, -2.912, 0.0))))
+FRAME = Frame(position=(0.269e-3, 1.950e-3, 1.606e-3), rotation=tuple(np.radians((0.341, -2.291, 0.0))))
 COLUMNS = ROOT / "examples" / "ftdcr_columns.yaml"
 
 
