@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 import tactr
@@ -39,7 +41,7 @@ def displacement_robot(compliance: float = 4e-4, pretension: float = 0.5) -> Rob
 
 
 def pulls(kind: str, rows: int, seed: int) -> dict[str, np.ndarray]:
-    """Actuation of every tendon: tensions of 0 to 2 N, or displacements of -3 to 4 mm, which leave some slack."""
+    """Of every tendon: tensions of 0 to 2 N, or displacements of -3 to 4 mm, which leave some slack."""
     rng = np.random.default_rng(seed)
     low, high = (0.0, 2.0) if kind == "tension" else (-3e-3, 4e-3)
     return {f"t{k}": rng.uniform(low, high, rows) for k in range(len(ANGLES))}
@@ -56,23 +58,21 @@ def measured(
     places: tuple[float | None, ...] = (None,),
 ) -> Measurements:
     """Without noise. zeros: of the motors, m, by tendon."""
-    given = {kind: pulls(kind, rows, seed)}
-    blank = Measurements(np.zeros((rows, len(places), 3)), places=places, **given)
-    names = list(given.get("displacement", {}))
+    given = pulls(kind, rows, seed)
+    blank = Measurements(np.zeros((rows, len(places), 3)), places=places)
+    blank = replace(blank, tension=given) if kind == "tension" else replace(blank, displacement=given)
+    names = list(blank.displacement)
     frees = expanded(robot, [f"tendons.{name}.zero" for name in zeros or {}], names)
     points = Model(robot, frame or Frame(), blank, frees, 1e-9).predict(
         np.array(list((zeros or {}).values()))
     )
     assert np.isfinite(points).all()
-    return Measurements(points, places=places, **given)
+    return replace(blank, points=points)
 
 
 def noisy(data: Measurements, rng: np.random.Generator, noise: float = NOISE) -> Measurements:
     """With normal noise on every coordinate."""
-    actuation = {kind: getattr(data, kind) for kind in ("tension", "displacement")}
-    return Measurements(
-        data.points + rng.normal(0.0, noise, data.points.shape), places=data.places, **actuation
-    )
+    return replace(data, points=data.points + rng.normal(0.0, noise, data.points.shape))
 
 
 def solved(robot: Robot, **actuation: float) -> np.ndarray:

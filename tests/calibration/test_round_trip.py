@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import simulated
 
 import tactr
 from tactr import Frame, Parameter
+
+from . import simulated
 
 TRIALS = 200
 FRAME = Frame(marker=(0.0, 0.0, 8e-3), position=(0.01, -0.02, 0.05), rotation=(0.05, 0.1, -0.2))

@@ -53,4 +53,6 @@ def test_the_commands_of_the_readme_exist():
     makefile = (ROOT / "Makefile").read_text()
     assert targets == {"demo", "test"}
     assert all(re.search(rf"^{target}:", makefile, re.MULTILINE) for target in targets)
-    assert {"solve", "check", "examples", "schema"} <= set(re.findall(r"^tactr (\w+)", text, re.MULTILINE))
+    assert {"solve", "calibrate", "check", "examples", "schema"} <= set(
+        re.findall(r"^tactr (\w+)", text, re.MULTILINE)
+    )

@@ -12,6 +12,7 @@ PAPER = [
     *("tendon_assignment_a", "tendon_assignment_b", "helical", "ctr", "tacter", "exonav2"),
 ]
 CLASSICS = ["till_straight", "till_helical", "rucker_webster", "tdcr_two_segment", "three_tube_ctr"]
+REAL = ["ftdcr", "ftdcr_calibrated"]
 
 TIPS = {
     "till_straight": (0.182212, 0.0, 0.453229),
@@ -23,10 +24,10 @@ TIPS = {
 
 
 def test_all_are_there():
-    assert set(examples.names()) == {*PAPER, *CLASSICS}
+    assert set(examples.names()) == {*PAPER, *CLASSICS, *REAL}
 
 
-@pytest.mark.parametrize("name", PAPER + CLASSICS)
+@pytest.mark.parametrize("name", PAPER + CLASSICS + REAL)
 def test_converges(name):
     robot = examples.load(name)
     shape = tactr.solve(robot)

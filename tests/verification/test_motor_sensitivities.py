@@ -17,10 +17,11 @@ TOLERANCE = 1e-10
 
 def two_tubes(*, tied: bool) -> Robot:
     """Precurved and loaded; three motors, one of them left slack, and one tendon at its tension."""
+    outer = Annulus(1.4e-3, 1.1e-3)
     tubes = [
-        Tube("outer", length=0.12, section=Annulus(1.4e-3, 1.1e-3), material=METAL, precurvature=(2.0, 1.0, 0.0)),
-        Tube("inner", length=0.18, section=Rod(1.0e-3), material=METAL, precurvature=(0.0, 3.0, 0.0), rotation=0.4),
-    ]  # fmt: skip
+        Tube("outer", length=0.12, section=outer, material=METAL, precurvature=(2.0, 1.0, 0.0)),
+        Tube("inner", length=0.18, section=Rod(1e-3), material=METAL, precurvature=(0, 3, 0), rotation=0.4),
+    ]
     tendons = [
         Tendon("a", "outer", Straight(5e-3, 0.0), displacement=1.5e-3, compliance=2e-4, pretension=1.0),
         Tendon("b", "inner", Straight.polar(4e-3, 2.0), displacement=2e-3, compliance=5e-4, pretension=0.5),
@@ -83,8 +84,8 @@ def test_the_tip_follows_a_number_with_the_motors_held(path: str, tied: bool) ->
 
 
 def test_one_motor_in_closed_form() -> None:
-    """A straight rod and one tendon at r: T = d / (L/EA + r^2 L/EI + c), so dT/dc = -T^2 / d, and the rod bends
-    by the angle T r L / EI."""
+    """A straight rod, one tendon at r: T = d / (L/EA + r^2 L/EI + c), dT/dc = -T^2 / d, and the rod bends by
+    the angle T r L / EI."""
     r, L, c, d = 5e-3, 0.2, 3e-4, 2e-3
     rod = Tube("rod", length=L, section=Rod(1e-3), material=METAL)
     shape = tactr.solve(Robot([rod], [Tendon("t", "rod", Straight(r, 0.0), displacement=d, compliance=c)]))

@@ -77,15 +77,17 @@ def _best(
 ) -> tuple[Found, tuple[float, ...]]:
     found: list[Found] = []
     for k, start in enumerate(_starts(frees, starts)):
+        if k > 0:
+            model.forget()
         name = f"start {k + 1} of {starts}" if starts > 1 else "calibrating"
         try:
             found.append(search(model, start, noise=noise, loss=loss, tick=tick(name)))
         except RobotError:
             if k == 0:
                 raise
-        model.forget()
     best = min(found, key=lambda each: _rank(each, found[0].noise))
-    model.predict(best.values)
+    if starts > 1:
+        model.predict(best.values)
     return best, tuple(sorted(_rank(each, found[0].noise) for each in found))
 
 

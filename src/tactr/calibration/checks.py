@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tactr.calibration.align import best_turn
 from tactr.calibration.frame import Frame
 from tactr.calibration.hold_out import distances
 from tactr.calibration.identify import Knowledge
 from tactr.calibration.measurements import Measurements, Remark, seen
 from tactr.calibration.model import Model
-from tactr.calibration.parameters import Free
+from tactr.calibration.parameters import ZERO, Free
 from tactr.calibration.search import Found
 from tactr.errors import RobotError
 from tactr.robot import Robot
@@ -30,6 +31,7 @@ def before(robot: Robot, frame: Frame, data: Measurements, frees: Sequence[Free]
     if count + known < len(frees):
         found = f"{len(frees)} free numbers, but only {count} coordinates measured in {len(data)} rows"
         raise RobotError("parameters", found, "more rows, fewer free parameters, or priors")
+    _check_zeros(robot, data, frees)
     reach = max(tube.tip for tube in robot.tubes)
     _check_points(data, frame, frees, reach)
     longest = max(tube.length for tube in robot.tubes)
@@ -42,6 +44,16 @@ def before(robot: Robot, frame: Frame, data: Measurements, frees: Sequence[Free]
                 found = f"{np.abs(values).max():.4g} {unit} is more than a robot can take; is the unit right?"
                 raise RobotError(f"{kind}.{name}", found, f"at most {most:.4g} {unit}", value=values)
     return list(data.remarks)
+
+
+def _check_zeros(robot: Robot, data: Measurements, frees: Sequence[Free]) -> None:
+    """A zero says where a tendon is tied: one that is zeroed anew wherever its tubes are has none."""
+    zeros = [path for free in frees for path in free.paths if path.endswith(f".{ZERO}")]
+    for path in zeros if data.rotation or data.translation else ():
+        name = path.split(".", 1)[1].rpartition(".")[0]
+        if robot.tendon(name).rest_length is None:
+            found = "its tube moves in the data, and the tendon is zeroed anew at every place of it"
+            raise RobotError(path, found, "a rest_length of the tendon (see tactr.rest_lengths)")
 
 
 def _check_points(data: Measurements, frame: Frame, frees: Sequence[Free], reach: float) -> None:
@@ -139,12 +151,9 @@ def _axes(data: Measurements, first: np.ndarray, found: Found) -> list[Remark]:
 
 
 def _left_over(p: np.ndarray, q: np.ndarray, mirror: bool) -> float:
-    """Root mean square of coordinates after the best shift and turn of p (mirrored) to q (Kabsch 1976)."""
-    a, b = p - p.mean(axis=0), q - q.mean(axis=0)
-    u, _, v = np.linalg.svd(a.T @ b)
-    hand = (-1.0 if mirror else 1.0) * np.sign(np.linalg.det(u @ v))
-    turn = u @ np.diag([1.0, 1.0, hand]) @ v
-    return float(np.sqrt(np.mean((a @ turn - b) ** 2)))
+    """Root mean square of coordinates after the best shift and turn of p (mirrored) to q."""
+    turn = best_turn(p, q, mirror=mirror)
+    return float(np.sqrt(np.mean(((p - p.mean(axis=0)) @ turn.T - (q - q.mean(axis=0))) ** 2)))
 
 
 def _outliers(data: Measurements, found: Found, loss: str) -> list[Remark]:

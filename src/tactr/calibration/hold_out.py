@@ -11,7 +11,7 @@ import numpy as np
 from tactr.calibration.measurements import Measurements
 from tactr.errors import RobotError
 
-Folds = int | Literal["group"] | Sequence[bool] | np.ndarray
+Folds = int | Literal["group"] | Sequence[bool] | Sequence[str] | np.ndarray
 Fit = Callable[[str, Measurements, Measurements], np.ndarray]
 
 

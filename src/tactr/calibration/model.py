@@ -36,7 +36,7 @@ class Model:
     def __init__(
         self, robot: Robot, frame: Frame, measured: Measurements, frees: Sequence[Free], tolerance: float
     ) -> None:
-        self.measured, self.frees = measured, tuple(frees)
+        self.measured, self.frees, self._given = measured, tuple(frees), robot
         self.robot, self.frame = _pulled(robot, measured), frame
         self.tolerance = tolerance
         self._shapes: list[Shape | None] = [None] * len(measured)
@@ -100,7 +100,7 @@ class Model:
     def calibrated(self, values: np.ndarray) -> Robot:
         """The robot at these values: zeros of motors become rest lengths, from where they are tied."""
         setting = self.setting(values)
-        robot, moved = setting.robot, np.flatnonzero(setting.zero)
+        robot, moved = self._as_given(setting.robot), np.flatnonzero(setting.zero)
         if len(moved):
             lengths = rest_lengths(robot)
             tendons = list(robot.tendons)
@@ -110,6 +110,24 @@ class Model:
                 tendons[j] = replace(tendons[j], rest_length=rest - setting.zero[j])
             robot = robot.replace(tendons=tuple(tendons))
         return robot
+
+    def _as_given(self, robot: Robot) -> Robot:
+        """With the actuation that was measured as the robot had it before."""
+        data, before = self.measured, self._given
+        pulled = {*data.displacement, *data.tension}
+        tendons = [
+            replace(own, displacement=old.displacement, tension=old.tension) if own.name in pulled else own
+            for own, old in zip(robot.tendons, before.tendons, strict=True)
+        ]
+        tubes = [
+            replace(
+                own,
+                rotation=old.rotation if own.name in data.rotation else own.rotation,
+                translation=old.translation if own.name in data.translation else own.translation,
+            )
+            for own, old in zip(robot.tubes, before.tubes, strict=True)
+        ]
+        return robot.replace(tendons=tuple(tendons), tubes=tuple(tubes))
 
     def _actuation(self, setting: Setting) -> dict[str, np.ndarray]:
         """(n, tendons) or (n, tubes) arrays of what was measured, and what the robot has of the rest."""

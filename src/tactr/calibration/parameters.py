@@ -11,7 +11,7 @@ from typing import Any
 from tactr.calibration.frame import Frame
 from tactr.errors import RobotError
 from tactr.io.unit_table import KINDS, Kind
-from tactr.robot import Robot
+from tactr.robot import DistributedLoad, Robot
 from tactr.robot import _check as check
 from tactr.statics.parameters import value_of
 
@@ -63,11 +63,11 @@ class Parameter:
     "tubes.outer.E"); "tendons.NAME.zero" (m, what the motor has pulled where its reading is 0; negative:
     slack); "marker.x" (m, of the tip's marker from the tip, in its material frame; also y, z); "sensor.x" (m,
     where the robot's origin is in the sensor's axes; also y, z) and "sensor.rx" (rad, rotation vector from
-    the robot's axes to the sensor's; also ry, rz). * stands for any name or step: one parameter for each
-    that fits, or, with ``common``, one number for all. start: where the search begins, None: where the robot
-    is. lower, upper: bounds. prior: mean and standard deviation of what is known of it beforehand. scale:
-    how much of it matters; a standard error beyond says that the data do not see it; None: its value, or
-    what is usual for its kind. All in SI units. Raises RobotError.
+    the robot's axes to the sensor's; also ry, rz). * stands for any name or step, [abc] for one of these
+    characters: one parameter for each that fits or, with ``common``, one number for all. start: where the
+    search begins, None: where the robot is. lower, upper: bounds. prior: mean and standard deviation of what
+    is known of it beforehand. scale: how much of it matters; a standard error beyond says that the data do
+    not see it; None: its value, or what is usual for its kind. All in SI units. Raises RobotError.
     """
 
     path: str
@@ -135,16 +135,12 @@ def expanded(
 def _matching(robot: Robot, path: str, known: list[str]) -> list[str]:
     short = f"{path[:-2]}.material{path[-2:]}" if path.endswith((".E", ".G")) else path
     for each in (path, short):
-        found = [candidate for candidate in known if fnmatch.fnmatchcase(candidate, _escaped(each))]
+        found = [candidate for candidate in known if fnmatch.fnmatchcase(candidate, each)]
         if found:
             return found
     raise RobotError(
         "parameters", f"nothing of the robot is called {path!r}", check.near(path, known)[:600], value=path
     )
-
-
-def _escaped(path: str) -> str:
-    return path.replace("[", "[[]")
 
 
 def known_paths(robot: Robot, measured: Sequence[str]) -> list[str]:
@@ -175,7 +171,7 @@ def _walk(owner: Any, path: str, paths: list[str]) -> None:
 
 def _free(robot: Robot, frame: Frame, parameter: Parameter, paths: Sequence[str]) -> Free:
     name = parameter.path if len(paths) > 1 else paths[0]
-    kind, last = kind_of(paths[0]), paths[0].rpartition(".")[2]
+    kind, last = kind_of(robot, paths[0]), paths[0].rpartition(".")[2]
     values = [_value(robot, frame, path) for path in paths]
     start = parameter.start if parameter.start is not None else sum(values) / len(values)
     lower, upper = parameter.lower, parameter.upper
@@ -210,13 +206,22 @@ def vector_of(path: str) -> str:
     )
 
 
-def kind_of(path: str) -> Kind:
-    """The kind of quantity that a path names."""
+def kind_of(robot: Robot, path: str) -> Kind:
+    """The kind of quantity that a path of the robot names, which may hold *."""
     last = path.rpartition(".")[2]
     for step, kind in INSIDE.items():
         if f".{step}." in path:
-            return KINDS[kind]
+            return KINDS[f"{kind} per length" if _is_along(robot, path) else kind]
     for kind, words in KIND_OF.items():
         if last in words and not path.startswith("marker"):
             return KINDS[kind]
     return KINDS["length"]
+
+
+def _is_along(robot: Robot, path: str) -> bool:
+    """Whether a path is of a load along a length, not at a point."""
+    group, _, rest = path.partition(".")
+    index = rest.partition(".")[0]
+    if group != "loads" or not index.isdigit() or int(index) >= len(robot.loads):
+        return False
+    return isinstance(robot.loads[int(index)], DistributedLoad)

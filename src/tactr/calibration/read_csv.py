@@ -96,6 +96,9 @@ def _columns(path: Path, line: int, header: list[str], named: dict[str, str]) ->
             line=line,
             expected=f"one of {', '.join(printable(name) for name in header)}",
         )
+    doubled = [name for name in named if header.count(name) > 1]
+    if doubled:
+        raise FileError("there are two columns called so", path=path, line=line, field=printable(doubled[0]))
     found = [_column(path, line, header.index(name), text) for name, text in named.items()]
     quantities = [column.quantity for column in found]
     for quantity in quantities:

@@ -151,10 +151,7 @@ class Calibration:
 def _estimate(
     free: Free, value: float, error: float, held: bool, identifiable: bool, wide: float
 ) -> Estimate:
-    unit = free.kind.units[-1] if free.kind.name != "modulus" else "Pa"
-    unit = {"length": "m", "angle": "rad", "compliance": "m/N", "axial or shear stiffness": "N"}.get(
-        free.kind.name, unit
-    )
+    unit = "N" if free.kind.name == "axial or shear stiffness" else free.kind.units[-1]  # the SI one
     if held:
         return Estimate(free.name, float(value), None, None, free.start, unit, "at its bound")
     if not identifiable:

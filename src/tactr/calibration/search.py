@@ -8,6 +8,7 @@ from typing import Any, Literal, cast
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
 
+from tactr.calibration.align import aligned
 from tactr.calibration.model import Model, Ticker
 from tactr.errors import RobotError
 
@@ -41,12 +42,14 @@ def search(
     model: Model, start: np.ndarray, *, noise: float | None, loss: Loss, tick: Ticker | None = None
 ) -> Found:
     """From one start. noise: m, or None to find it. Raises RobotError where no row has an equilibrium."""
-    usable = np.isfinite(model.predict(start, tick)) & np.isfinite(model.measured.points)
+    predicted = model.predict(start, tick)
+    usable = np.isfinite(predicted) & np.isfinite(model.measured.points)
     if not usable.any():
         expected = "parameters, units and actuation of a robot that can be in equilibrium"
         raise RobotError("start", "no measured row has an equilibrium there", expected)
     if not model.frees:
         return _as_it_is(model, start, usable, noise)
+    start = aligned(model.frees, start, predicted, model.measured.points)
     weigh = loss != "linear" or any(free.prior is not None for free in model.frees)
     least = _Least(model, usable, loss, tick)
     values, known = start, noise
@@ -117,7 +120,7 @@ class _Least:
         return least_squares(
             fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._loss,
             f_scale=TUNING,
-            xtol=1e-8, ftol=1e-9, gtol=1e-12, max_nfev=STEPS,
+            xtol=1e-8, ftol=1e-6, gtol=1e-12, max_nfev=STEPS,
         )  # fmt: skip
 
     def _from_priors(self, values: np.ndarray) -> np.ndarray:

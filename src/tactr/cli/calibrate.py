@@ -50,7 +50,7 @@ def run_calibrate(request: Request) -> int:
 
     robot, frame, starts = _set(robot, request.set)
     data = Measurements.read(request.data, columns=request.columns)
-    parameters = _parameters(request, starts)
+    parameters = _parameters(request, robot, starts)
     with _progress() as progress:
         result = calibrate(
             robot,
@@ -67,13 +67,13 @@ def run_calibrate(request: Request) -> int:
     return 0
 
 
-def _parameters(request: Request, starts: dict[str, float]) -> list[Parameter]:
+def _parameters(request: Request, robot: Robot, starts: dict[str, float]) -> list[Parameter]:
     from tactr.calibration import Parameter
 
     parameters = [Parameter(path) for path in request.free]
     parameters += [Parameter(path, common=True) for path in request.common]
     for option in ("bounds", "prior"):
-        for path, (first, second) in _pairs(option, getattr(request, option)).items():
+        for path, (first, second) in _pairs(option, robot, getattr(request, option)).items():
             places = [k for k, parameter in enumerate(parameters) if parameter.path == path]
             if not places:
                 raise UsageError(
@@ -107,7 +107,7 @@ def _set(robot: Robot, words: Sequence[str]) -> tuple[Robot, Frame, dict[str, fl
         if not fitting:
             raise UsageError(f"--set: nothing of the robot is called {path!r}")
         for each in fitting:
-            value = _value("set", each, text)
+            value = _value("set", robot, each, text)
             if each in FRAME:
                 frame[vector_of(each)]["xyz".index(each[-1])] = value
             elif each.endswith(f".{ZERO}"):
@@ -117,7 +117,7 @@ def _set(robot: Robot, words: Sequence[str]) -> tuple[Robot, Frame, dict[str, fl
     return robot, Frame(**frame), starts  # pyright: ignore[reportArgumentType]
 
 
-def _pairs(option: str, words: Sequence[str]) -> dict[str, tuple[float, float]]:
+def _pairs(option: str, robot: Robot, words: Sequence[str]) -> dict[str, tuple[float, float]]:
     pairs = {}
     for word in words:
         path, sign, text = word.rpartition("=")
@@ -126,17 +126,17 @@ def _pairs(option: str, words: Sequence[str]) -> dict[str, tuple[float, float]]:
             raise UsageError(
                 f'--{option}: {word!r}; expected PATH="A, B", such as tubes.outer.E="40 GPa, 80 GPa"'
             )
-        first, second = (_value(option, path.strip(), part) for part in parts)
+        first, second = (_value(option, robot, path.strip(), part) for part in parts)
         pairs[path.strip()] = (first, second)
     return pairs
 
 
-def _value(option: str, path: str, text: str) -> float:
+def _value(option: str, robot: Robot, path: str, text: str) -> float:
     from tactr.calibration.parameters import kind_of
     from tactr.io.units import UnitError, parse_quantity
 
     try:
-        return parse_quantity(text.strip(), kind_of(path))
+        return parse_quantity(text.strip(), kind_of(robot, path))
     except UnitError as error:
         raise UsageError(f"--{option}: {path}: {error}") from None
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
 from tactr import _core
-from tactr.robot import DistributedLoad, Gravity, PointLoad, Robot, Tendon, TensionProfile, Tube
+from tactr.robot import DistributedLoad, Gravity, PointLoad, Robot, Routing, Tendon, TensionProfile, Tube
 from tactr.robot.parts import Part
+from tactr.robot.piece import RoutingPiece
 from tactr.robot.stretch import QUANTITIES
 
 COEFFICIENTS = 16
@@ -70,14 +72,20 @@ def _piece_rows(tube: Tube) -> list[list[float]]:
 
 
 def _tendon_row(robot: Robot, tendon: Tendon, index: dict[str, int]) -> list[float]:
-    pieces = len(tendon.routing.pieces(tendon_end(robot, tendon)))
+    pieces = len(_pieces(tendon.routing, tendon_end(robot, tendon)))
     tensions = len(_profile_rows(tendon))
     return [index[tendon.tube], tendon.host == "outermost", tendon_end(robot, tendon), pieces, tensions]
 
 
+@lru_cache(maxsize=512)
+def _pieces(routing: Routing, end: float) -> tuple[RoutingPiece, ...]:
+    """Kept, because derivatives and calibrations assemble robots that differ in one number."""
+    return routing.pieces(end)
+
+
 def _routing_rows(robot: Robot, tendon: Tendon) -> list[list[float]]:
     rows = []
-    for piece in tendon.routing.pieces(tendon_end(robot, tendon)):
+    for piece in _pieces(tendon.routing, tendon_end(robot, tendon)):
         a = [*piece.a, *[0.0] * (COEFFICIENTS - len(piece.a))]
         b = [*piece.b, *[0.0] * (COEFFICIENTS - len(piece.b))]
         rows.append([piece.start, piece.end, piece.polar, len(piece.a), len(piece.b), *a, *b])
