@@ -79,7 +79,7 @@ def test_help(run, words):
 
 def test_the_ready_made_help_is_complete():
     commands = [name for name in app if not name.startswith("-")]
-    assert sorted(commands) == sorted(COMMANDS) == ["check", "examples", "schema", "solve"]
+    assert sorted(commands) == sorted(COMMANDS) == ["calibrate", "check", "examples", "schema", "solve"]
     for name in commands:
         assert re.search(rf"^  {name} ", HELP, re.MULTILINE)
         text = COMMANDS[name]
@@ -93,7 +93,7 @@ def test_the_ready_made_help_is_complete():
         assert set(re.findall(r"--(\w+)", text)) <= set(parameters)
 
 
-@pytest.mark.parametrize("command", ["solve", "check", "schema", "examples"])
+@pytest.mark.parametrize("command", ["solve", "calibrate", "check", "schema", "examples"])
 def test_help_of_commands(run, command):
     for words in ([command, "--help"], [command, "x", "-h"]):
         assert run(*words) == (0, COMMANDS[command], "")
