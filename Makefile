@@ -2,6 +2,9 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+# In .venv once and for all, so that building again compiles only what changed.
+BUILDERS := 'scikit-build-core>=0.10' 'nanobind>=2.2' cmake ninja
+INSTALL := $(BIN)/python -m pip install --quiet --no-build-isolation --editable
 SOURCES := pyproject.toml CMakeLists.txt $(wildcard core/*.hpp core/*.cpp)
 
 .PHONY: demo test slow lint format wheel picture clean
@@ -27,7 +30,7 @@ format: $(VENV)/.checkers
 
 wheel: $(VENV)/.installed
 	rm -rf dist
-	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir dist .
+	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir dist .
 
 picture: $(VENV)/.installed  ## the picture in the README
 	$(BIN)/tactr solve --plot docs/two_tube.png
@@ -38,9 +41,10 @@ clean:
 $(VENV)/.installed: $(SOURCES)
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "tactr needs Python 3.11 or newer: make PYTHON=python3.12 ...")'
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --editable '.[test]'
+	$(BIN)/python -m pip install --quiet $(BUILDERS)
+	$(INSTALL) '.[test]'
 	@touch $@
 
 $(VENV)/.checkers: $(VENV)/.installed
-	$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	$(INSTALL) '.[dev]'
 	@touch $@

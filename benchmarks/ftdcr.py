@@ -31,7 +31,7 @@ SENSOR = ["sensor.x", "sensor.y", "sensor.z", "sensor.rx", "sensor.ry"]
 PHASES, ZEROS = "tendons.*.routing.phase", "tendons.*.zero"
 BEND = ["tubes.backbone.precurvature.0.1.x", "tubes.backbone.precurvature.0.1.y"]
 WEIGHT = "loads.0.force.z"
-# Motors zeroed by hand, a backbone built straight: without single pulls the data hardly tell one from the other.
+# Motors zeroed by hand, a backbone built straight: without single pulls the data hardly tell which is off.
 KNOWN_ZEROS = Parameter(ZEROS, prior=(0.0, 0.3e-3))
 KNOWN_BEND = [Parameter(path, prior=(0.0, 0.5)) for path in BEND]
 STEPS: dict[str, list[str | Parameter]] = {

@@ -73,7 +73,7 @@ class Pulling:
 
     @property
     def discretisation_error(self) -> float:
-        """Estimated error from the finite step size, m: of the tip, or of a tendon's length if that is larger."""
+        """Estimated error from the finite step size, m: of the tip, or a tendon's length if larger."""
         return self._solution.discretisation_error
 
     @cached_property
