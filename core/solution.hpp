@@ -14,8 +14,8 @@ enum class StabilityFound { unchecked = 0, stable = 1, unstable = 2 };
 
 constexpr long MOST_STEPS = 60000;
 
-/// Fewer with more than three tubes, whose steps take longer: either way a second or two, three at the very most.
-inline long most_steps(int tubes) { return tubes > 3 ? MOST_STEPS * 3 / tubes : MOST_STEPS; }
+/// Fewer with more than four tubes, whose steps take longer: a second or two, about three at the very most.
+inline long most_steps(int tubes) { return tubes > 4 ? MOST_STEPS * 4 / tubes : MOST_STEPS; }
 
 struct Settings {
     double tolerance = 1e-6;           // discretisation error at the tip, m

@@ -33,8 +33,9 @@ CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibil
 SCATTER = 4.0  # how many times more or less than the tension that a flexibility asks for
 MOST_STARTS = 20
 STAGES = (0.25, 0.5, 0.75, 1.0)  # of displacements and held tensions
-WORK_NEAR, WORK_COLD, WORK_LED, WORK_SCATTERED, WORK_STAGES = 5e4, 2.4e5, 5e4, 1.3e5, 1e5  # see Held.allow
-WORK_EACH = 5e4  # in one of many cold solves
+WORK_START, WORK_NEAR, WORK_COLD = 1.2e5, 5e4, 2e5  # see Held.allow: in all ways
+WORK_LED, WORK_SCATTERED, WORK_STAGES = 3e4, 1.3e5, 1e5  # two seconds, three at the most
+WORK_EACH = 1e5  # in one of many cold solves
 
 
 def low_discrepancy(k: int, count: int) -> np.ndarray:
@@ -49,12 +50,13 @@ def low_discrepancy(k: int, count: int) -> np.ndarray:
 class DisplacementSolver:
     """Newton on the tensions of the pulled tendons; held solves at tensions."""
 
+    _best: _core.Solution  # from cold, so far
+
     def __init__(self, held: Held, pulls: Pulls, tension: np.ndarray) -> None:
         self._held = held
         self._joint = JointNewton(held, pulls)
         self._pulls = pulls
         self._tension = tension  # of all tendons; those pulled by displacement are to be found
-        self._best: _core.Solution | None = None
 
     def from_guess(self, guess: _core.Solution, *, stay: bool = False) -> Pulled | None:
         """From a neighbour and its tensions; stay: on its branch. None: not found."""
@@ -72,10 +74,10 @@ class DisplacementSolver:
     def from_cold(self) -> Pulled:
         """From no tension, in one way after the other, until one meets the displacements in a stable
         shape."""
-        start, given_up = self._slack(), False
+        start, given_up = self._without_tension(), False
         ways = (
             (self._newton, WORK_NEAR, np.inf),
-            (self._afresh, WORK_COLD, np.inf),
+            (self._afresh, WORK_COLD, WORK_EACH),
             (self._led, WORK_LED, np.inf),
             (self._scattered, WORK_SCATTERED, WORK_EACH),
             (self._in_stages, WORK_STAGES, WORK_EACH),
@@ -91,26 +93,29 @@ class DisplacementSolver:
         met = self._rank(self._best)[0] < 2
         return self._result(self._best, self._is_stable(self._best) if met else None, given_up=given_up)
 
-    def _slack(self) -> _core.Solution:
-        """Without tension in the pulled tendons; where the others' tensions alone are more than the tubes can
-        take, without these."""
+    def _without_tension(self) -> _core.Solution:
+        """In the pulled tendons; where the others' tensions alone are more than the tubes can take, without
+        these, too."""
         none = np.zeros(len(self._pulls.index))
-        self._held.allow(np.inf)
+        self._held.allow(np.inf, each=WORK_START)
         self._best = self._solve(none, None)
         return self._best if self._best.status == 0 else self._solve(none, None, held=0.0)
 
     def _offer(self, solution: _core.Solution) -> None:
         """Kept if it is the best so far."""
-        at_full = np.delete(solution.tension - self._tension, self._pulls.index)
-        if not at_full.any() and self._rank(solution) < self._rank(self._best):
+        if self._is_whole(solution) and self._rank(solution) < self._rank(self._best):
             self._best = solution
+
+    def _is_whole(self, solution: _core.Solution) -> bool:
+        """Whether the tendons that have a tension are at it."""
+        return np.array_equal(solution.tension, self._whole(solution.tension[self._pulls.index]))
 
     def _good(self) -> bool:
         return self._rank(self._best)[0] == 0
 
-    def _rank(self, solution: _core.Solution | None) -> tuple[int, float]:
+    def _rank(self, solution: _core.Solution) -> tuple[int, float]:
         """Smaller is better: met and stable, met, missed by so much, no shape."""
-        if solution is None or solution.status != 0:
+        if solution.status != 0:
             return 3, 0.0
         missed = self._missed(solution)
         if missed > self._pulls.tolerance:
@@ -165,7 +170,7 @@ class DisplacementSolver:
 
     def _led(self, start: _core.Solution) -> _core.Solution:
         """On one branch, the displacements growing from those that go with no tension."""
-        found = self._joint.lead(start)
+        found = self._joint.lead(start) if self._is_whole(start) else None
         return start if found is None else found
 
     def _scattered(self, start: _core.Solution) -> _core.Solution:
@@ -184,8 +189,8 @@ class DisplacementSolver:
         return self._best
 
     def _in_stages(self, start: _core.Solution) -> _core.Solution:
-        """As ``_afresh``, with growing displacements, from those that leave every tendon just without tension,
-        and growing held tensions."""
+        """As ``_afresh``, with growing displacements, from those that leave every tendon just without
+        tension, and growing held tensions."""
         solution = self._solve(np.zeros(len(self._pulls.index)), None, held=0.0)
         if solution.status != 0:
             return start

@@ -30,13 +30,13 @@ class Held:
         self.residual_tolerance = residual_tolerance
         self.solves = self.marches = self.work = 0
         self._places = rotation, translation
-        self._weight = 2 + len(rotation)  # of one step
+        self._weight = 2 + max(len(rotation), 2)  # of one step
         self._tolerance = tolerance
         self._most_work = self._most_each = np.inf
 
     def allow(self, work: float, *, each: float = np.inf) -> None:
-        """GivenUp is raised once so much more is done: steps marched, each counted as 2 and one more for every
-        tube, of which about 2e5 take a second. each: the most of it in one solve."""
+        """GivenUp is raised once so much more is done: steps marched, each counted as 2 and one more for
+        every tube, 4 at least, of which about 2e5 take a second. each: the most of it in one solve."""
         self._most_work, self._most_each = self.work + work, each
 
     def solve(
