@@ -12,8 +12,8 @@ snap at held tensions, Newton's method on free end and tensions together (``join
 
 That stays on a branch, and long slender robots, or ones that tensions bend far, leave it at the smallest
 steps. Then the trials are solved from cold: each is on a branch that a robot without a history would be on,
-and Newton's full steps lead from one such branch to the next; once more from tensions scattered about those
-that the first step asks for, and with the tendons that have a tension pulled step by step.
+and Newton's full steps lead from one such branch to the next; where they do not, from tensions scattered
+about those that the first step asks for.
 """
 
 from __future__ import annotations
@@ -32,9 +32,8 @@ SHORTEST, SHORTEST_COLD = 0.02, 0.2  # of a step
 CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibility
 SCATTER = 4.0  # how many times more or less than the tension that a flexibility asks for
 MOST_STARTS = 20
-STAGES = (0.25, 0.5, 0.75, 1.0)  # of displacements and held tensions
-WORK_START, WORK_NEAR, WORK_COLD = 1.2e5, 5e4, 2e5  # see Held.allow: in all ways
-WORK_LED, WORK_SCATTERED, WORK_STAGES = 3e4, 1.3e5, 1e5  # two seconds, three at the most
+WORK_START, WORK_NEAR, WORK_COLD = 1.2e5, 4e4, 3.5e5  # see Held.allow: in all ways
+WORK_LED, WORK_SCATTERED = 3e4, 1.3e5  # two or three seconds
 WORK_EACH = 1e5  # in one of many cold solves
 
 
@@ -80,7 +79,6 @@ class DisplacementSolver:
             (self._afresh, WORK_COLD, WORK_EACH),
             (self._led, WORK_LED, np.inf),
             (self._scattered, WORK_SCATTERED, WORK_EACH),
-            (self._in_stages, WORK_STAGES, WORK_EACH),
         )
         for way, work, each in ways if start.status == 0 else ():
             self._held.allow(work, each=each)
@@ -125,10 +123,10 @@ class DisplacementSolver:
     def _is_stable(self, solution: _core.Solution) -> bool:
         return is_stable(self._held.prepared, self._pulls, solution)
 
-    def _missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> float:
+    def _missed(self, solution: _core.Solution) -> float:
         if solution.status != 0:
             return LARGEST
-        return float(self._pulls.missed(solution, shift).max(initial=0.0))
+        return float(self._pulls.missed(solution).max(initial=0.0))
 
     def _newton(self, solution: _core.Solution) -> _core.Solution:
         """On one branch: until no gap is missed, or no step leads on."""
@@ -148,20 +146,17 @@ class DisplacementSolver:
         together = self._joint.find(solution, self._whole(solution.tension[self._pulls.index]))
         return solution if together is None else together
 
-    def _afresh(
-        self, solution: _core.Solution, shift: np.ndarray | float = 0.0, held: float = 1.0
-    ) -> _core.Solution:
+    def _afresh(self, solution: _core.Solution) -> _core.Solution:
         """Each solve from cold, on whatever branch that finds, until free end and tensions together lead to a
-        stable shape. shift: added to the gaps, m; held: of the tensions of the tendons that have one."""
+        stable shape."""
         for _ in range(MOST_STEPS):
-            whole = self._whole(solution.tension[self._pulls.index], held)
-            found = self._joint.find(solution, whole, shift)
+            found = self._joint.find(solution, self._whole(solution.tension[self._pulls.index]))
             if found is not None:
                 if self._is_stable(found):
                     return found
                 self._offer(found)
             flexibility = self._flexibility(solution)
-            after = None if flexibility is None else self._step(solution, flexibility, shift, held, cold=True)
+            after = None if flexibility is None else self._step(solution, flexibility, cold=True)
             if after is None:
                 break
             solution = after
@@ -188,41 +183,24 @@ class DisplacementSolver:
                 break
         return self._best
 
-    def _in_stages(self, start: _core.Solution) -> _core.Solution:
-        """As ``_afresh``, with growing displacements, from those that leave every tendon just without
-        tension, and growing held tensions."""
-        solution = self._solve(np.zeros(len(self._pulls.index)), None, held=0.0)
-        if solution.status != 0:
-            return start
-        ahead = np.maximum(-self._pulls.gap(solution), 0.0)
-        for to in STAGES:
-            solution = self._afresh(solution, (1.0 - to) * ahead, to)
-        return solution
-
     def _step(
-        self,
-        solution: _core.Solution,
-        flexibility: np.ndarray,
-        shift: np.ndarray | float = 0.0,
-        held: float = 1.0,
-        *,
-        cold: bool = False,
+        self, solution: _core.Solution, flexibility: np.ndarray, *, cold: bool = False
     ) -> _core.Solution | None:
         """One step; shortened while it overshoots the least of the dual energy, whose slope along it is
         gap . step, and while no shape is found. None: no step leads on."""
-        tension, gap = solution.tension[self._pulls.index], self._pulls.gap(solution) + shift
+        tension, gap = solution.tension[self._pulls.index], self._pulls.gap(solution)
         way = complementary_tension(flexibility, gap, tension) - tension
-        slope, size = float(gap @ way), self._missed(solution, shift)
+        slope, size = float(gap @ way), self._missed(solution)
         fraction = 1.0
         while fraction > (SHORTEST_COLD if cold else SHORTEST):
             ahead = np.maximum(tension + fraction * way, 0.0)
-            trial = self._solve(ahead, None if cold else solution, stay=not cold, held=held)
+            trial = self._solve(ahead, None if cold else solution, stay=not cold)
             if trial.status != 0:
                 fraction *= 0.3
                 continue
-            if self._missed(trial, shift) <= (1.0 - 0.1 * fraction) * size:
+            if self._missed(trial) <= (1.0 - 0.1 * fraction) * size:
                 return trial
-            after = float((self._pulls.gap(trial) + shift) @ way)
+            after = float(self._pulls.gap(trial) @ way)
             if slope < 0.0 and after <= -0.9 * slope:
                 return trial
             fraction *= min(max(slope / (slope - after), 0.1), 0.7) if slope < 0.0 < after else 0.3
