@@ -135,7 +135,7 @@ tactr::Solution blank(const PreparedRobot& robot, const Vector& tension, const V
 }
 
 tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
-                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay) {
+                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay, long most_steps) {
     tactr::Solution solution = blank(robot, tension, rotation, translation);
     nb::gil_scoped_release release;
     const tactr::Robot view = robot.view();
@@ -145,6 +145,7 @@ tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const V
     settings.residual_tolerance = residual_tolerance;
     settings.fixed_steps = steps;
     settings.stay = stay;
+    settings.max_steps = std::min(most_steps, tactr::most_steps(view.tube_count));
     tactr::solve(view, actuation, settings, guess, solution);
     return solution;
 }
@@ -382,7 +383,8 @@ NB_MODULE(_core, m) {
         .def_prop_ro("tip_quaternion", [](const tactr::Solution& s) { return vector_of(s.tip_quaternion, 4); });
 
     m.def("solve", &solve, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
-          "guess"_a = nb::none(), "steps"_a = 0, "stay"_a = false, "Free-end unknowns, residuals and tip of one robot at one actuation.");
+          "guess"_a = nb::none(), "steps"_a = 0, "stay"_a = false, "most_steps"_a = tactr::MOST_STEPS,
+          "Free-end unknowns, residuals and tip of one robot at one actuation.");
     m.def("branches", &branches, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
           "samples"_a = 0, "All equilibria found at one actuation, stable ones first, then by energy.");
     m.def("stability", &stability, "robot"_a, "solution"_a, "samples"_a, "stable, margin, s, determinant, conjugate points.");

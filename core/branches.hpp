@@ -36,9 +36,9 @@ class BranchFinder {
     }
 
     /// As search, but only until a stable solution is found.
-    bool search_stable() {
+    bool search_stable(long most_work) {
         work_ = 0;
-        most_work_ = WORK_COLD;
+        most_work_ = std::min(WORK_COLD, most_work);
         if (n_ > 1 || world_) start_beside(Solution(found.empty() ? like_ : found.front()), true);
         if (!has_stable()) start_unloaded();
         if (!has_stable() && n_ == 2 && !world_) search_once(100, true);
@@ -93,7 +93,7 @@ class BranchFinder {
 
   private:
     static constexpr int ROUNDS = 3, BATCH = 16;
-    static constexpr long WORK = 150000, WORK_COLD = 40000;  // steps marched in all: seconds, and a second at the very most
+    static constexpr long WORK = 150000, WORK_COLD = 40000;  // steps marched in all: seconds, and a second or two
     static constexpr double ROUGH = 1e-6;      // rad, at the base: enough to tell solutions apart
     static constexpr double SAME = 1e-4;       // rad, at the free end
     static constexpr double FAITHFUL = 0.02;   // rad: how well cubics have to follow a sweep
@@ -386,7 +386,7 @@ inline void settle(const NewtonSolver& cold, Solution& solution) {
     const Solution first = solution;
     BranchFinder finder(newton, first);
     finder.keep(solution);
-    const bool found = finder.search_stable();
+    const bool found = finder.search_stable(cold.settings.max_steps - solution.steps_marched);
     solution.steps_marched += finder.work();
     if (!found) return;
     finder.sort();

@@ -12,12 +12,17 @@ enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse =
 /// What is known of a solution's stability: unchecked where a guess chose the branch.
 enum class StabilityFound { unchecked = 0, stable = 1, unstable = 2 };
 
+constexpr long MOST_STEPS = 60000;
+
+/// Fewer with more than four tubes, whose steps take longer: a second or two, about three at the very most.
+inline long most_steps(int tubes) { return tubes > 4 ? MOST_STEPS * 4 / tubes : MOST_STEPS; }
+
 struct Settings {
     double tolerance = 1e-6;           // discretisation error at the tip and of tendons' lengths, m
     double residual_tolerance = 1e-9;  // rad at the base
     int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
-    long max_steps = 50000;            // of all marches with derivatives together: a second or so
+    long max_steps = MOST_STEPS;       // marched in all, a search for a stable solution included
     bool stay = false;                 // with a guess: its branch or none, never from cold
 };
 

@@ -52,6 +52,7 @@ def solve(
     guess: Solution | None = None,
     steps: int = 0,
     stay: bool = False,
+    most_steps: int = ...,
 ) -> Solution:
     """Free-end unknowns, residuals and tip of one robot at one actuation."""
 

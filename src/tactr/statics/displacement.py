@@ -9,6 +9,11 @@ a complementarity problem whose flexibility dF/dT is symmetric and positive semi
 least of a convex function over T >= 0. Newton's method on it, each step a linear complementarity problem
 (Josephy, 1979), each trial a solve at held tensions from the last one. Where that leads on no more, as at a
 snap at held tensions, Newton's method on free end and tensions together (``joint``).
+
+That stays on a branch, and long slender robots, or ones that tensions bend far, leave it at the smallest
+steps. Then the trials are solved from cold: each is on a branch that a robot without a history would be on,
+and Newton's full steps lead from one such branch to the next; where they do not, from tensions scattered
+about those that the first step asks for.
 """
 
 from __future__ import annotations
@@ -23,26 +28,34 @@ from tactr.statics.pulls import LARGEST, Pulled, Pulls, is_stable
 
 AIM_SHARE = 0.1  # of what may be missing: where Newton stops
 MOST_STEPS = 40
-SHORTEST = 1e-4  # of a step
-STAYING = 0.05  # a step still shorter may leave its branch,
-MOST_JUMPS = 4  # though a solve that looks for another one costs a hundred others
-FIRST_SHARE, LEAST_SHARE = 0.125, 2e-3  # of the way from no displacement, in one step
-CLOSER = (0.5, 0.25)  # of the tensions
-WORK_NEAR = 1.5e4  # steps marched from a guess,
-WORK = 1.5e4  # in each way from cold: in all of them two or three seconds
+SHORTEST, SHORTEST_COLD = 0.02, 0.2  # of a step
 CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibility
+SCATTER = 4.0  # how many times more or less than the tension that a flexibility asks for
+MOST_STARTS = 20
+WORK_START, WORK_NEAR, WORK_COLD = 1.2e5, 4e4, 3.5e5  # see Held.allow: in all ways
+WORK_LED, WORK_SCATTERED = 3e4, 1.3e5  # two or three seconds
+WORK_EACH = 1e5  # in one of many cold solves
+
+
+def low_discrepancy(k: int, count: int) -> np.ndarray:
+    """Point number k of the additive recurrence with the generalised golden ratio (M. Roberts, 2018),
+    (count,), in [0, 1)."""
+    ratio = 1.5
+    for _ in range(40):
+        ratio = (1.0 + ratio) ** (1.0 / (count + 1))
+    return (0.5 + (k + 1) * ratio ** -np.arange(1.0, count + 1)) % 1.0
 
 
 class DisplacementSolver:
     """Newton on the tensions of the pulled tendons; held solves at tensions."""
+
+    _best: _core.Solution  # from cold, so far
 
     def __init__(self, held: Held, pulls: Pulls, tension: np.ndarray) -> None:
         self._held = held
         self._joint = JointNewton(held, pulls)
         self._pulls = pulls
         self._tension = tension  # of all tendons; those pulled by displacement are to be found
-        self._jumps = MOST_JUMPS
-        self._last: _core.Solution | None = None  # that Newton's method came to
 
     def from_guess(self, guess: _core.Solution, *, stay: bool = False) -> Pulled | None:
         """From a neighbour and its tensions; stay: on its branch. None: not found."""
@@ -60,145 +73,134 @@ class DisplacementSolver:
     def from_cold(self) -> Pulled:
         """From no tension, in one way after the other, until one meets the displacements in a stable
         shape."""
-        self._held.allow(np.inf)
-        best = self._last = self._solve(np.zeros(len(self._pulls.index)), None)
-        given_up = False
-        for way in (self._newton, self._led, self._gradually, self._again, self._closer):
-            self._held.allow(WORK)
-            start = best if way == self._newton else self._last
+        start, given_up = self._without_tension(), False
+        ways = (
+            (self._newton, WORK_NEAR, np.inf),
+            (self._afresh, WORK_COLD, WORK_EACH),
+            (self._led, WORK_LED, np.inf),
+            (self._scattered, WORK_SCATTERED, WORK_EACH),
+        )
+        for way, work, each in ways if start.status == 0 else ():
+            self._held.allow(work, each=each)
             try:
-                found = way(start)
+                self._offer(way(start))
             except GivenUp:
-                found, given_up = self._last, True
-            if self._rank(found) < self._rank(best):
-                best = found
-            if self._good(best):
+                given_up = True
+            if self._good():
                 break
-        met = self._rank(best)[0] < 2
-        return self._result(best, self._is_stable(best) if met else None, given_up=given_up)
+        met = self._rank(self._best)[0] < 2
+        return self._result(self._best, self._is_stable(self._best) if met else None, given_up=given_up)
 
-    def _led(self, first: _core.Solution) -> _core.Solution:
-        """From no tension, the displacements growing from those that go with it."""
-        start = self._solve(np.zeros(len(self._pulls.index)), None)
-        found = self._joint.lead(start) if start.status == 0 else None
-        return first if found is None else found
+    def _without_tension(self) -> _core.Solution:
+        """In the pulled tendons; where the others' tensions alone are more than the tubes can take, without
+        these, too."""
+        none = np.zeros(len(self._pulls.index))
+        self._held.allow(np.inf, each=WORK_START)
+        self._best = self._solve(none, None)
+        return self._best if self._best.status == 0 else self._solve(none, None, held=0.0)
 
-    def _is_stable(self, solution: _core.Solution) -> bool:
-        return is_stable(self._held.prepared, self._pulls, solution)
+    def _offer(self, solution: _core.Solution) -> None:
+        """Kept if it is the best so far."""
+        if self._is_whole(solution) and self._rank(solution) < self._rank(self._best):
+            self._best = solution
 
-    def _good(self, solution: _core.Solution) -> bool:
-        return self._rank(solution)[0] == 0 and self._is_stable(solution)
+    def _is_whole(self, solution: _core.Solution) -> bool:
+        """Whether the tendons that have a tension are at it."""
+        return np.array_equal(solution.tension, self._whole(solution.tension[self._pulls.index]))
+
+    def _good(self) -> bool:
+        return self._rank(self._best)[0] == 0
 
     def _rank(self, solution: _core.Solution) -> tuple[int, float]:
-        """Smaller is better."""
+        """Smaller is better: met and stable, met, missed by so much, no shape."""
         if solution.status != 0:
             return 3, 0.0
-        missed = float(self._pulls.missed(solution).max(initial=0.0))
+        missed = self._missed(solution)
         if missed > self._pulls.tolerance:
             return 2, missed
         return (0, 0.0) if self._is_stable(solution) else (1, 0.0)
 
-    def _again(self, first: _core.Solution) -> _core.Solution:
-        """From a cold solve at the tensions found: perhaps another branch."""
-        if first.status != 0:
-            return first
-        return self._newton(self._solve(first.tension[self._pulls.index], None))
+    def _is_stable(self, solution: _core.Solution) -> bool:
+        return is_stable(self._held.prepared, self._pulls, solution)
 
-    def _closer(self, first: _core.Solution) -> _core.Solution:
-        """From cold solves at parts of the tensions at which Newton's method stopped, perhaps at a snap."""
-        best = first
-        for share in CLOSER if first.status == 0 else ():
-            found = self._newton(self._solve(share * first.tension[self._pulls.index], None))
-            best = min(best, found, key=self._rank)
-            if self._good(best):
-                break
-        return best
-
-    def _gradually(self, first: _core.Solution) -> _core.Solution:
-        """Growing displacements, from those that leave every tendon just without tension, and growing held
-        tensions: these alone may bend the tubes beyond what they can take. Where the branch ends or loses its
-        stability it is left for what a cold solve finds there."""
-        ahead = np.zeros(len(self._pulls.index))
-        solution = self._solve(ahead, None, held=0.0)
-        if solution.status != 0:
-            return first
-        ahead = np.maximum(-self._pulls.gap(solution), 0.0)
-        done, share, landings = 0.0, FIRST_SHARE, MOST_JUMPS
-        while done < 1.0:
-            to = min(1.0, done + share)
-            found = self._carried(solution, to, ahead, stay=True)
-            if found is None and share < LEAST_SHARE and landings > 0:
-                landings -= 1
-                found, share = self._carried(solution, to, ahead, stay=False), FIRST_SHARE
-            if found is not None:
-                solution, done, share = found, to, 1.7 * share
-            elif share < LEAST_SHARE:
-                return first
-            else:
-                share *= 0.4
-        return solution
-
-    def _carried(
-        self, solution: _core.Solution, to: float, ahead: np.ndarray, *, stay: bool
-    ) -> _core.Solution | None:
-        """A stable shape at a part of the displacements and held tensions; None: not found."""
-        if stay:
-            whole = self._whole(solution.tension[self._pulls.index], to)
-            found = self._joint.find(solution, whole, (1.0 - to) * ahead)
-            if found is not None and self._is_stable(found):
-                return found
-        guess = solution if stay else None
-        start = self._solve(solution.tension[self._pulls.index], guess, stay=stay, held=to)
-        found = self._newton(start, shift=(1.0 - to) * ahead, held=to)
-        met = self._missed(found, (1.0 - to) * ahead) <= self._pulls.tolerance
-        return found if met and self._is_stable(found) else None
-
-    def _missed(self, solution: _core.Solution, shift: np.ndarray | float = 0.0) -> float:
+    def _missed(self, solution: _core.Solution) -> float:
         if solution.status != 0:
             return LARGEST
-        return float(self._pulls.missed(solution, shift).max(initial=0.0))
+        return float(self._pulls.missed(solution).max(initial=0.0))
 
-    def _newton(
-        self, solution: _core.Solution, shift: np.ndarray | float = 0.0, held: float = 1.0
-    ) -> _core.Solution:
-        """Until no gap is missed, or no step leads on. shift: added to the gaps, m; held: of the tensions of
-        the tendons that have one."""
+    def _newton(self, solution: _core.Solution) -> _core.Solution:
+        """On one branch: until no gap is missed, or no step leads on."""
         flexibility, aim = None, AIM_SHARE * self._pulls.tolerance
-        missed = self._missed(solution, shift)
+        missed = self._missed(solution)
         for _ in range(MOST_STEPS):
             if solution.status != 0 or missed <= aim:
                 return solution
             if flexibility is None:
                 flexibility = self._flexibility(solution)
-            after = None if flexibility is None else self._step(solution, flexibility, shift, held)
+            after = None if flexibility is None else self._step(solution, flexibility)
             if after is None:
                 break
-            before, missed, solution = missed, self._missed(after, shift), after
-            self._last = solution
+            before, missed, solution = missed, self._missed(after), after
             if missed > CHORD * before:
                 flexibility = None
-        together = self._joint.find(solution, self._whole(solution.tension[self._pulls.index], held), shift)
+        together = self._joint.find(solution, self._whole(solution.tension[self._pulls.index]))
         return solution if together is None else together
 
+    def _afresh(self, solution: _core.Solution) -> _core.Solution:
+        """Each solve from cold, on whatever branch that finds, until free end and tensions together lead to a
+        stable shape."""
+        for _ in range(MOST_STEPS):
+            found = self._joint.find(solution, self._whole(solution.tension[self._pulls.index]))
+            if found is not None:
+                if self._is_stable(found):
+                    return found
+                self._offer(found)
+            flexibility = self._flexibility(solution)
+            after = None if flexibility is None else self._step(solution, flexibility, cold=True)
+            if after is None:
+                break
+            solution = after
+            self._offer(solution)
+        return solution
+
+    def _led(self, start: _core.Solution) -> _core.Solution:
+        """On one branch, the displacements growing from those that go with no tension."""
+        found = self._joint.lead(start) if self._is_whole(start) else None
+        return start if found is None else found
+
+    def _scattered(self, start: _core.Solution) -> _core.Solution:
+        """As ``_afresh``, from low-discrepancy tensions about those that each tendon would need alone."""
+        flexibility = self._flexibility(start)
+        if flexibility is None:
+            return start
+        alone = np.abs(self._pulls.gap(start) / np.diag(flexibility))
+        for k in range(MOST_STARTS):
+            tension = alone * SCATTER ** (2.0 * low_discrepancy(k, len(alone)) - 1.0)
+            solution = self._solve(tension, None)
+            if solution.status == 0:
+                self._offer(self._afresh(solution))
+            if self._good():
+                break
+        return self._best
+
     def _step(
-        self, solution: _core.Solution, flexibility: np.ndarray, shift: np.ndarray | float, held: float
+        self, solution: _core.Solution, flexibility: np.ndarray, *, cold: bool = False
     ) -> _core.Solution | None:
         """One step; shortened while it overshoots the least of the dual energy, whose slope along it is
         gap . step, and while no shape is found. None: no step leads on."""
-        tension, gap = solution.tension[self._pulls.index], self._pulls.gap(solution) + shift
+        tension, gap = solution.tension[self._pulls.index], self._pulls.gap(solution)
         way = complementary_tension(flexibility, gap, tension) - tension
-        slope, size = float(gap @ way), self._missed(solution, shift)
+        slope, size = float(gap @ way), self._missed(solution)
         fraction = 1.0
-        while fraction > SHORTEST:
-            ahead, stay = np.maximum(tension + fraction * way, 0.0), fraction > STAYING or self._jumps == 0
-            self._jumps -= not stay
-            trial = self._solve(ahead, solution, stay=stay, held=held)
+        while fraction > (SHORTEST_COLD if cold else SHORTEST):
+            ahead = np.maximum(tension + fraction * way, 0.0)
+            trial = self._solve(ahead, None if cold else solution, stay=not cold)
             if trial.status != 0:
                 fraction *= 0.3
                 continue
-            if self._missed(trial, shift) <= (1.0 - 0.1 * fraction) * size:
+            if self._missed(trial) <= (1.0 - 0.1 * fraction) * size:
                 return trial
-            after = float((self._pulls.gap(trial) + shift) @ way)
+            after = float(self._pulls.gap(trial) @ way)
             if slope < 0.0 and after <= -0.9 * slope:
                 return trial
             fraction *= min(max(slope / (slope - after), 0.1), 0.7) if slope < 0.0 < after else 0.3

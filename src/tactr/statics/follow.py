@@ -15,6 +15,7 @@ from tactr.statics.actuation import displacements, rotations, tensions, translat
 from tactr.statics.path import Path, path_points
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared, _Actuated
+from tactr.statics.stability import is_stable_at_tensions
 
 LONGEST_TURN = 0.1  # rad at the free ends in one step: a larger one is taken in smaller steps, or is a snap
 FIRST_STEP, GROWTH = 0.25, 1.6
@@ -182,7 +183,7 @@ class _Follower:
     def _stable(shape: Shape) -> bool:
         if shape._pulled is not None:
             return shape.stable
-        return bool(_core.stability(shape._prepared, shape._solution, 0)[0])
+        return is_stable_at_tensions(shape._prepared, shape._solution)
 
     @staticmethod
     def _turn(a: Shape, b: Shape) -> float:

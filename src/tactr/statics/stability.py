@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,10 +18,10 @@ class Stability:
 
     stable: no small change lowers the energy. margin: the smallest scaled determinant along the robot, 1 for
     an unloaded or straight robot and 0 at the limit of snapping or buckling; for an unstable shape 0 or the
-    smallest determinant, whichever is less. s (k,) m from the guide's exit, ascending, negative inside the
-    guide; determinant (k,): det D(s), 1 at the tip, where D(s) = d(angles of the tubes and orientation of the
-    section at s)/d(their values at the free ends). conjugate_points (c,): the s where D loses a rank, once
-    for each rank; there are as many as directions in which the energy falls.
+    smallest determinant, whichever is less; NaN where it is not ``known``. s (k,) m from the guide's exit,
+    ascending, negative inside the guide; determinant (k,): det D(s), 1 at the tip, where D(s) = d(angles of
+    the tubes and orientation of the section at s)/d(their values at the free ends). conjugate_points (c,):
+    the s where D loses a rank, once for each rank; there are as many as directions in which the energy falls.
 
     Two directions of buckling that come together, as of a round rod, make the determinant a square: the
     margin is then a square, too. Loads in body axes turn with the robot and moments in world axes do work
@@ -37,12 +38,23 @@ class Stability:
     conjugate_points: np.ndarray
 
     @property
+    def known(self) -> bool:
+        """Whether it could be told. Not where a tube is all but crushed: its sections then have no
+        equilibrium beside their own; stable is False, margin NaN, and the arrays are empty."""
+        return not math.isnan(self.margin)
+
+    @property
     def near_limit(self) -> bool:
         """Stable, with a margin below 0.1."""
         return self.stable and self.margin < NEAR_THE_LIMIT
 
     def __str__(self) -> str:
         """In words: stable or not, the margin, and a warning where there is reason for one."""
+        if not self.known:
+            return (
+                "stability not known: sections all but crushed have no equilibrium beside their own; lower "
+                "the tensions and loads"
+            )
         if self.near_limit:
             return (
                 f"stable, margin {self.margin:.3g}: near the limit, a small change may make it snap or buckle"
@@ -58,6 +70,8 @@ class Stability:
     def __repr__(self) -> str:
         at = ", ".join(f"{s * 1e3:.2f}" for s in self.conjugate_points)
         points = f", conjugate points at s = {at} mm" if at else ""
+        if not self.known:
+            return "<Stability: not known>"
         return f"<Stability: {'stable' if self.stable else 'unstable'}, margin {self.margin:.4g}{points}>"
 
 
@@ -66,4 +80,15 @@ SAMPLES = 8  # of the determinant per step of the kernel
 
 def stability_of(prepared: _core.PreparedRobot, solution: _core.Solution) -> Stability:
     """Stability of a converged solution."""
-    return Stability(*_core.stability(prepared, solution, SAMPLES))
+    try:
+        return Stability(*_core.stability(prepared, solution, SAMPLES))
+    except RuntimeError:  # the Jacobi field was not found
+        return Stability(False, math.nan, *np.empty((3, 0)))
+
+
+def is_stable_at_tensions(prepared: _core.PreparedRobot, solution: _core.Solution) -> bool:
+    """As ``stability_of(...).stable``, in less time."""
+    try:
+        return bool(_core.stability(prepared, solution, 0)[0])
+    except RuntimeError:
+        return False
