@@ -367,6 +367,7 @@ NB_MODULE(_core, m) {
         .def_ro("discretisation_error", &tactr::Solution::discretisation_error)
         .def_ro("least_stretch", &tactr::Solution::least_stretch)
         .def_ro("shortest_tendon", &tactr::Solution::shortest_tendon)
+        .def_ro("amplification", &tactr::Solution::amplification)
         .def_ro("base_determinant", &tactr::Solution::base_determinant)
         .def_ro("used_continuation", &tactr::Solution::used_continuation)
         .def_prop_ro("stability", [](const tactr::Solution& s) { return static_cast<int>(s.stability); })

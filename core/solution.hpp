@@ -7,7 +7,7 @@
 
 namespace tactr {
 
-enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse = 3, collapsed = 4 };
+enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse = 3, collapsed = 4, too_sensitive = 5 };
 
 /// What is known of a solution's stability: unchecked where a guess chose the branch.
 enum class StabilityFound { unchecked = 0, stable = 1, unstable = 2 };
@@ -17,7 +17,7 @@ struct Settings {
     double residual_tolerance = 1e-9;  // rad at the base
     int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
-    long max_steps = 50000;            // of all marches with derivatives together: a second or so
+    long max_steps = 50000;            // of all marches with derivatives of one way from cold
     bool stay = false;                 // with a guess: its branch or none, never from cold
 };
 
@@ -30,6 +30,7 @@ struct Solution {
     double discretisation_error = std::numeric_limits<double>::max();
     double least_stretch = 1.0;
     double shortest_tendon = 1.0;  // least |q| of the last marches; near 0: a tendon at the centre of curvature
+    double amplification = 1.0;    // where the robot was grown: by how much the base answers the free end, at the last clamp
     double base_determinant = 0.0;  // of d(base)/d(free end)
     bool used_continuation = false;
     StabilityFound stability = StabilityFound::unchecked;
