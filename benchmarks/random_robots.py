@@ -172,12 +172,12 @@ def _tendons(rng: np.random.Generator, tubes: list[Tube]) -> list[Tendon]:
 def _tensioned(rng: np.random.Generator, tubes: list[Tube], tendons: list[Tendon]) -> list[Tendon]:
     target = rng.uniform(0.0, LARGEST_BEND)
     highest = min((_limit(tubes, t) / _newtons(t) for t in tendons if _newtons(t) > 0.0), default=0.0)
-    reach = _largest_offset(tubes, tendons)
+    everywhere = np.concatenate([_grid(tubes), _middles(tubes, tendons)])
+    reach = _largest_offset(tubes, tendons, everywhere)
 
     def fits(scale: float) -> bool:
-        curvature = np.abs(glued_curvature(tubes, tendons, scale))
-        whole = np.mean(curvature) * max(tube.tip for tube in tubes)
-        return bool(whole <= target and np.max(curvature * reach) <= CLOSEST)
+        tightest = np.max(np.abs(glued_curvature(tubes, tendons, scale, everywhere)) * reach)
+        return bool(bend(tubes, tendons, scale) <= target and tightest <= CLOSEST)
 
     low, high = (highest if fits(highest) else 0.0), highest
     for _ in range(40):
@@ -205,17 +205,27 @@ def _newtons(tendon: Tendon) -> float:
 
 def bend(tubes: list[Tube], tendons: list[Tendon], scale: float = 1.0) -> float:
     """Total bend in rad, were the tubes glued together and unable to twist; tensions times scale."""
-    return float(np.mean(np.abs(glued_curvature(tubes, tendons, scale))) * max(tube.tip for tube in tubes))
+    curvature = glued_curvature(tubes, tendons, scale, _grid(tubes))
+    return float(np.mean(np.abs(curvature)) * max(tube.tip for tube in tubes))
 
 
 def _grid(tubes: list[Tube]) -> np.ndarray:
     return (np.arange(GRID) + 0.5) * max(tube.tip for tube in tubes) / GRID
 
 
-def glued_curvature(tubes: list[Tube], tendons: list[Tendon], scale: float) -> np.ndarray:
-    """Curvature ux + i uy at GRID places, were the tubes glued together and unable to twist."""
-    s = _grid(tubes)
-    stiffness, moment = np.zeros(GRID), np.zeros(GRID, dtype=complex)
+def _middles(tubes: list[Tube], tendons: list[Tendon]) -> np.ndarray:
+    """Between neighbouring ends of tubes, tendons and curved parts, which may all fall between two places of
+    the grid: there a thin tube alone can be bent tighter than anywhere else."""
+    ends = [0.0, *(tube.tip for tube in tubes)]
+    ends += [tube.translation + start for tube in tubes for start, _ in tube.precurvature]
+    ends += [_own(tubes, t).translation + t.end for t in tendons if t.end is not None]
+    ends = np.unique([s for s in ends if s >= 0.0])
+    return 0.5 * (ends[1:] + ends[:-1])
+
+
+def glued_curvature(tubes: list[Tube], tendons: list[Tendon], scale: float, s: np.ndarray) -> np.ndarray:
+    """Curvature ux + i uy at s, were the tubes glued together and unable to twist."""
+    stiffness, moment = np.zeros(len(s)), np.zeros(len(s), dtype=complex)
     for tube in tubes:
         here, EI = s < tube.tip, tube.stiffness.EI_x
         stiffness += EI * here
@@ -225,9 +235,9 @@ def glued_curvature(tubes: list[Tube], tendons: list[Tendon], scale: float) -> n
     return moment / stiffness
 
 
-def _largest_offset(tubes: list[Tube], tendons: list[Tendon]) -> np.ndarray:
-    """Offset of the outermost pulled tendon at GRID places, m."""
-    s, reach = _grid(tubes), np.zeros(GRID)
+def _largest_offset(tubes: list[Tube], tendons: list[Tendon], s: np.ndarray) -> np.ndarray:
+    """Offset of the outermost pulled tendon at s, m."""
+    reach = np.zeros(len(s))
     for tendon in tendons:
         own = _own(tubes, tendon)
         here = s < (own.tip if tendon.end is None else own.translation + tendon.end)

@@ -1,6 +1,6 @@
 """Convergence from cold over the wider set of robots, and along paths of a thousand points.
 
-    python benchmarks/wide.py [--count 20000] [--seed 0] [--processes 2] [--log wide.jsonl]
+    python benchmarks/wide.py [--count 20000] [--seed 0] [--processes 2] [--log wide.jsonl] [--held]
     python benchmarks/wide.py --paths 6 [--points 1000]
 
 Solves the robots of wide_robots.py with seeds seed, seed + 1, ... from cold and writes a line to the log for
@@ -9,7 +9,9 @@ continued with other seeds. Prints the share that converges, the share that is s
 status, times, and every success that is none: over a tolerance of its own, or moved by more than the
 tolerance (but not onto another branch) by a solve from it with a tolerance of 1e-9 m, or with displacements
 that are not those of another solve at its tensions. Tendons' lengths are integrals on steps chosen for the
-tip: how far finer steps move displacements is printed, too. Exit code 1 when less than 99.9 % converge or a
+tip: how far finer steps move displacements is printed, too. --held: all robots stay at their tensions, none
+is pulled by displacements. --any-force: tip forces up to 1 N, however slender the robot. Each with a log of
+its own. Exit code 1 when less than 99.9 % converge or a
 success is none.
 
 --paths: follows random robots of the set along random paths instead: rotations, insertions and displacements
@@ -23,10 +25,12 @@ import argparse
 import collections
 import dataclasses
 import json
+import math
 import multiprocessing
 import os
 import time
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -66,9 +70,10 @@ class Outcome:
     false: str
 
 
-def outcome_of(seed: int) -> Outcome:
+def outcome_of(seed: int, *, held: bool, any_force: bool) -> Outcome:
     """Solve the robot of one seed from cold."""
-    robot = displaced(wide_robot(seed), seed, TOLERANCE)
+    robot = wide_robot(seed, most_slender=math.inf) if any_force else wide_robot(seed)
+    robot = robot if held else displaced(robot, seed, TOLERANCE)
     shape = Prepared(robot, tolerance=TOLERANCE, stations=2).solve()
     moved, pull_error, false = checked(robot, shape) if shape.converged else (0.0, 0.0, "")
     return Outcome(
@@ -124,13 +129,16 @@ def wrong_pull(robot: Robot, at: Shape) -> float:
     return float(np.nanmax(np.where(at.tension > 0.0, np.abs(over), np.maximum(-over, 0.0))))
 
 
-def solve_all(seeds: range, processes: int, log: Path) -> list[Outcome]:
+def solve_all(
+    seeds: range, processes: int, log: Path, *, held: bool = False, any_force: bool = False
+) -> list[Outcome]:
     """Outcomes of the seeds, those in the log as they stand there, the others added to it as they come."""
     lines = log.read_text().splitlines() if log.exists() else []
     found = {o.seed: o for o in (Outcome(**json.loads(line)) for line in lines)}
     left = [seed for seed in seeds if seed not in found]
+    solve = partial(outcome_of, held=held, any_force=any_force)
     with log.open("a") as file, multiprocessing.Pool(processes) as pool:
-        for outcome in pool.imap_unordered(outcome_of, left, chunksize=4):
+        for outcome in pool.imap_unordered(solve, left, chunksize=4):
             found[outcome.seed] = outcome
             file.write(json.dumps(dataclasses.asdict(outcome)) + "\n")
             file.flush()
@@ -159,12 +167,13 @@ def report(found: list[Outcome], wall: float) -> bool:
             print(f"time of a {name}: median {middle:.2f} ms, 99 % {late:.0f} ms, slowest {times[-1]:.0f} ms")
     print(f"moved by a solve with a tolerance of {FINE} m: at most {max(o.moved for o in good):.1e} m")
     pulls = [o for o in good if o.pulled]
-    worst = max(pulls, key=lambda o: o.pull_error)
-    coarse = sum(o.pull_error > TOLERANCE for o in pulls)
-    print(
-        f"displacements moved by these: at most {worst.pull_error:.1e} m (seed {worst.seed}), "
-        f"over {TOLERANCE} m in {coarse} of {len(pulls)}"
-    )
+    if pulls:
+        worst = max(pulls, key=lambda o: o.pull_error)
+        coarse = sum(o.pull_error > TOLERANCE for o in pulls)
+        print(
+            f"displacements moved by these: at most {worst.pull_error:.1e} m (seed {worst.seed}), "
+            f"over {TOLERANCE} m in {coarse} of {len(pulls)}"
+        )
     false = [(o.seed, o.false) for o in good if o.false]
     print(f"successes that are none: {len(false)} {false or ''}")
     print(f"failures: {len(bad)} {dict(collections.Counter(o.status for o in bad)) or ''}")
@@ -205,6 +214,8 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--log", type=Path, default=Path("wide.jsonl"))
+    parser.add_argument("--held", action="store_true", help="no displacements")
+    parser.add_argument("--any-force", action="store_true", help="up to 1 N on every robot")
     parser.add_argument("--paths", type=int, default=0, help="robots to follow, instead")
     parser.add_argument("--points", type=int, default=1000, help="points of each path")
     options = parser.parse_args()
@@ -212,7 +223,8 @@ def main() -> int:
         return 0 if follow_paths(options.seed, options.paths, options.points) else 1
     begin = time.perf_counter()
     seeds = range(options.seed, options.seed + options.count)
-    found = solve_all(seeds, options.processes, options.log)
+    how = {"held": options.held, "any_force": options.any_force}
+    found = solve_all(seeds, options.processes, options.log, **how)
     return 0 if report(found, time.perf_counter() - begin) else 1
 
 

@@ -6,9 +6,11 @@ tubes         1 to 5, equally likely.
 length        distal ends innermost longest for half of the robots, else in any order: inner tubes withdrawn
               inside outer ones.
 translation   three in four robots have proximal ends 0 to 200 mm behind the guide's exit, each its own.
-loads         half of the robots: a force at the tip, of a size uniform from 0 to 1 N, in any direction, in
-              world axes (3 in 4) or body axes. Nothing of the robot is looked at: on the most slender ones 1
-              N is a few hundred times the load at which they buckle. 30 %: gravity in any direction.
+loads         half of the robots: a force at the tip, of a size uniform from 0 to 1 N, or to 100 EI / L^2
+              where that is less (EI of the tubes glued together, the least along the robot), in any
+              direction, in world axes (3 in 4) or body axes. At 100 EI / L^2, forty times the load at which
+              the robot buckles, all of it but a tenth next to the guide hangs along the force like a string.
+              30 %: gravity in any direction.
 displacements half of the robots that have tendons: 10 um/N to 1 mm/N of compliance for half their tendons,
 none
               for the others; half of them, at least one, pulled by the displacements that they have in the
@@ -19,6 +21,7 @@ none
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -30,14 +33,15 @@ from tactr.statics import Prepared, Status
 
 STREAM = 20_000  # so that no robot of the narrower set returns
 LARGEST_FORCE = 1.0  # N
+MOST_SLENDER = 100.0  # EI / L^2
 
 
-def wide_robot(seed: int) -> Robot:
-    """The robot of this seed at tensions, as distributed above."""
+def wide_robot(seed: int, *, most_slender: float = MOST_SLENDER) -> Robot:
+    """The robot of this seed at tensions, as distributed above; most_slender: of the tip force, EI / L^2."""
     rng = np.random.default_rng([seed, STREAM])
     tubes = _tubes(rng, _places(rng, int(rng.integers(1, 6))))
     tendons = _tensioned(rng, tubes, _tendons(rng, tubes))
-    return Robot(tubes, tendons, _loads(rng, tubes), name=f"wide {seed}")
+    return Robot(tubes, tendons, _loads(rng, tubes, most_slender), name=f"wide {seed}")
 
 
 def displaced(robot: Robot, seed: int, tolerance: float = 1e-6) -> Robot:
@@ -66,11 +70,12 @@ def _places(rng: np.random.Generator, count: int) -> list[_Place]:
     return [_Place(float(start), float(tip)) for start, tip in zip(starts, tips, strict=True)]
 
 
-def _loads(rng: np.random.Generator, tubes: list[Tube]) -> list[Load]:
+def _loads(rng: np.random.Generator, tubes: list[Tube], most_slender: float) -> list[Load]:
     loads: list[Load] = []
     if rng.random() < 0.5:
         last = max(tubes, key=lambda tube: tube.tip)
-        x, y, z = rng.uniform(0.0, LARGEST_FORCE) * _direction(rng)
+        most = min(LARGEST_FORCE, most_slender * bending_force(tubes))
+        x, y, z = rng.uniform(0.0, most) * _direction(rng)
         axes = "world" if rng.random() < 0.75 else "body"
         loads.append(PointLoad(last.name, force=(x, y, z), axes=axes))
     if rng.random() < 0.3:
@@ -79,11 +84,14 @@ def _loads(rng: np.random.Generator, tubes: list[Tube]) -> list[Load]:
     return loads
 
 
+def bending_force(tubes: Sequence[Tube]) -> float:
+    """EI / length^2 of the tubes glued together, least anywhere, N: 2.5 of these buckle a column."""
+    length = max(tube.tip for tube in tubes)
+    s = (np.arange(200) + 0.5) * length / 200
+    return min(sum(tube.stiffness.EI_x for tube in tubes if tube.tip > place) for place in s) / length**2
+
+
 def slenderness(robot: Robot) -> float:
-    """Force at the tip over EI / length^2 of the tubes glued together, least anywhere: 2.5 buckles a
-    column."""
-    last = max(robot.tubes, key=lambda tube: tube.tip)
-    s = (np.arange(200) + 0.5) * last.tip / 200
-    least = min(sum(tube.stiffness.EI_x for tube in robot.tubes if tube.tip > place) for place in s)
+    """Force at the tip over EI / length^2, as bending_force has it."""
     force = max((math.hypot(*load.force) for load in robot.loads if isinstance(load, PointLoad)), default=0.0)
-    return force * last.tip**2 / least
+    return force / bending_force(robot.tubes)

@@ -145,7 +145,7 @@ tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const V
     settings.residual_tolerance = residual_tolerance;
     settings.fixed_steps = steps;
     settings.stay = stay;
-    settings.max_steps = std::min(most_steps, tactr::most_steps(view.tube_count));
+    settings.most_work = most_steps;
     tactr::solve(view, actuation, settings, guess, solution);
     return solution;
 }
@@ -369,6 +369,7 @@ NB_MODULE(_core, m) {
                      [](const tactr::Solution& s) { return tactr::larger(s.discretisation_error, s.length_error); })
         .def_ro("least_stretch", &tactr::Solution::least_stretch)
         .def_ro("shortest_tendon", &tactr::Solution::shortest_tendon)
+        .def_ro("amplification", &tactr::Solution::amplification)
         .def_ro("base_determinant", &tactr::Solution::base_determinant)
         .def_ro("used_continuation", &tactr::Solution::used_continuation)
         .def_prop_ro("stability", [](const tactr::Solution& s) { return static_cast<int>(s.stability); })
@@ -383,7 +384,7 @@ NB_MODULE(_core, m) {
         .def_prop_ro("tip_quaternion", [](const tactr::Solution& s) { return vector_of(s.tip_quaternion, 4); });
 
     m.def("solve", &solve, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
-          "guess"_a = nb::none(), "steps"_a = 0, "stay"_a = false, "most_steps"_a = tactr::MOST_STEPS,
+          "guess"_a = nb::none(), "steps"_a = 0, "stay"_a = false, "most_steps"_a = tactr::Settings{}.most_work,
           "Free-end unknowns, residuals and tip of one robot at one actuation.");
     m.def("branches", &branches, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
           "samples"_a = 0, "All equilibria found at one actuation, stable ones first, then by energy.");

@@ -9,12 +9,21 @@
 #include <vector>
 
 #include "energetics.hpp"
+#include "growth.hpp"
 #include "newton.hpp"
 #include "solution.hpp"
 #include "stability.hpp"
 #include "starts.hpp"
 
 namespace tactr {
+
+constexpr long MOST_OF_ONE_START = 2000;  // steps marched: a start that needs more is better left for the next
+
+inline Settings settings_of_one_start(Settings settings) {
+    settings.max_iterations = 25;
+    settings.max_steps = MOST_OF_ONE_START;
+    return settings;
+}
 
 class BranchFinder {
   public:
@@ -35,10 +44,11 @@ class BranchFinder {
         }
     }
 
-    /// As search, but only until a stable solution is found.
+    /// As search, but only until a stable solution is found, or so many steps are marched.
     bool search_stable(long most_work) {
+        if (has_stable()) return true;
         work_ = 0;
-        most_work_ = std::min(WORK_COLD, most_work);
+        most_work_ = most_work;
         if (n_ > 1 || world_) start_beside(Solution(found.empty() ? like_ : found.front()), true);
         if (!has_stable()) start_unloaded();
         if (!has_stable() && n_ == 2 && !world_) search_once(100, true);
@@ -93,7 +103,7 @@ class BranchFinder {
 
   private:
     static constexpr int ROUNDS = 3, BATCH = 16;
-    static constexpr long WORK = 150000, WORK_COLD = 40000;  // steps marched in all: seconds, and a second or two
+    static constexpr long WORK = 150000;       // steps marched in all: seconds
     static constexpr double ROUGH = 1e-6;      // rad, at the base: enough to tell solutions apart
     static constexpr double SAME = 1e-4;       // rad, at the free end
     static constexpr double FAITHFUL = 0.02;   // rad: how well cubics have to follow a sweep
@@ -363,41 +373,68 @@ class BranchFinder {
     }
 };
 
-constexpr long MOST_OF_ONE_START = 2000;  // steps marched: a start that needs more is better left for the next
+/// After a cold start: keeps a stable solution; in place of an unstable one, or of none, takes the stable one of least
+/// energy that it finds. Of none: an unstable one, too, where no stable one is found.
+class Settler {
+  public:
+    Settler(const NewtonSolver& cold, Solution& solution)
+        : cold_(cold), solution_(solution), one_start_(settings_of_one_start(cold.settings)),
+          newton_(cold.robot, cold.actuation, one_start_) {}
 
-/// After a cold start: keeps a stable solution; in place of an unstable one takes the stable one of least energy.
-inline void settle(const NewtonSolver& cold, Solution& solution) {
-    if (cold.shooting.unknowns == 0) {
-        solution.stability = StabilityFound::stable;
-        return;
+    void settle() {
+        if (is_stable() || cold_.settings.fixed_steps > 0) return;
+        const bool met = solution_.status == Status::converged;
+        if (met) solution_.stability = StabilityFound::unstable;
+        Solution first = solution_;
+        if (!met) {
+            newton_.start_straight(first);
+            newton_.choose_mesh(first);
+        }
+        BranchFinder finder(newton_, first);
+        if (met) finder.keep(first);
+        if (met && !solution_.used_continuation) grow(finder);
+        const bool stable = finder.search_stable(std::min(cold_.settings.max_steps, cold_.settings.most_work - solution_.steps_marched));
+        solution_.steps_marched += finder.work();
+        if (finder.found.empty() || (met && !stable)) return;
+        finder.sort();
+        take(finder.found.front(), met);
     }
-    if (cold.settings.fixed_steps > 0) return;
-    StabilityReport report;
-    StabilityPass pass(cold.robot, cold.actuation, cold.layout, cold.shooting);
-    if (pass.run(solution, 0, report) && report.stable) {
-        solution.stability = StabilityFound::stable;
-        return;
+
+  private:
+    const NewtonSolver& cold_;
+    Solution& solution_;
+    const Settings one_start_;
+    NewtonSolver newton_;
+
+    bool is_stable() {
+        if (solution_.status != Status::converged) return cold_.shooting.unknowns == 0;
+        StabilityReport report;
+        StabilityPass pass(cold_.robot, cold_.actuation, cold_.layout, cold_.shooting);
+        if (cold_.shooting.unknowns > 0 && !(pass.run(solution_, 0, report) && report.stable)) return false;
+        solution_.stability = StabilityFound::stable;
+        return true;
     }
-    solution.stability = StabilityFound::unstable;
-    Settings settings = cold.settings;
-    settings.max_iterations = 25;
-    settings.max_steps = MOST_OF_ONE_START;
-    NewtonSolver newton(cold.robot, cold.actuation, settings);
-    const Solution first = solution;
-    BranchFinder finder(newton, first);
-    finder.keep(solution);
-    const bool found = finder.search_stable(cold.settings.max_steps - solution.steps_marched);
-    solution.steps_marched += finder.work();
-    if (!found) return;
-    finder.sort();
-    const int iterations = solution.iterations;
-    const long steps_marched = solution.steps_marched;
-    const bool continued = solution.used_continuation;
-    solution = finder.found.front();
-    solution.iterations += iterations;
-    solution.steps_marched = steps_marched;
-    solution.used_continuation = continued;
-    solution.switched = true;
-}
+
+    void grow(BranchFinder& finder) {
+        Solution grown = solution_;
+        grown.iterations = 0;
+        grown.steps_marched = 0;
+        NewtonSolver newton(cold_.robot, cold_.actuation, cold_.settings);
+        if (Growth(newton, grown).reach() && newton.polish(grown)) finder.keep(grown);
+        solution_.iterations += grown.iterations;
+        solution_.steps_marched += grown.steps_marched;
+    }
+
+    void take(const Solution& found, bool met) {
+        const int iterations = solution_.iterations;
+        const long steps_marched = solution_.steps_marched;
+        const bool continued = solution_.used_continuation;
+        solution_ = found;
+        solution_.iterations += iterations;
+        solution_.steps_marched = steps_marched;
+        solution_.used_continuation = continued;
+        solution_.switched = met;
+    }
+};
 
 }  // namespace tactr

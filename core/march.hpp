@@ -129,6 +129,7 @@ class March {
     void start(const FreeEnd<T>& free_end, int sections) {
         for (int c = 0; c < STATES; ++c) y[c] = T(0.0);
         for (int c = 0; c < 4; ++c) y[QUAT + c] = free_end.quaternion[c];
+        for (int i = 0; i < robot.tube_count; ++i) base.psi[i] = free_end.psi[i];  // as long as the base is beyond its end
         last_ = Strains{};
         solver.begin();
         section_error.assign(sections, 0.0);

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "dense.hpp"
@@ -21,9 +22,11 @@ class NewtonSolver {
     const Shooting shooting;
     double residual[MAX_UNKNOWNS];  // at the last evaluation; its derivatives are in the solution
 
-    NewtonSolver(const Robot& robot_, const Actuation<double>& actuation_, const Settings& settings_)
+    /// clamp: where the base is, and the tubes' rotations hold; what lies before it is left away.
+    NewtonSolver(const Robot& robot_, const Actuation<double>& actuation_, const Settings& settings_,
+                 double clamp = -std::numeric_limits<double>::max())
         : actuation(actuation_), robot(robot_), settings(settings_),
-          layout(cut_into_sections(robot_, actuation_.translation)), shooting(robot_, layout) {}
+          layout(clamped_at(clamp, cut_into_sections(robot_, actuation_.translation))), shooting(robot_, layout) {}
 
     void start_straight(Solution& solution) const {
         for (int i = 0; i < robot.tube_count; ++i) solution.free_end.psi[i] = actuation.rotation[i];
@@ -104,6 +107,7 @@ class NewtonSolver {
     /// True: below tolerance.
     bool newton(Solution& solution, double tolerance, Kind first) {
         if (shooting.unknowns == 0) first = Kind::exact;
+        careful_ = false;
         if (!evaluate(solution, first)) return fail(solution, Status::no_equilibrium);
         for (int iteration = 0; iteration < settings.max_iterations; ++iteration) {
             const double size = solution.base_residual;
@@ -120,7 +124,10 @@ class NewtonSolver {
                 for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
             }
             if (solve_dense(shooting.unknowns, A, step) == 0.0) break;
-            if (!backtrack(solution, step, size)) break;
+            if (backtrack(solution, step, size)) continue;
+            if (careful_) break;
+            careful_ = true;  // rough marches, each from other strains, may miss what is less than their own error
+            if (!evaluate(solution, Kind::firm)) break;
         }
         return fail(solution, Status::stalled);
     }
@@ -158,6 +165,7 @@ class NewtonSolver {
   private:
     FreeEnd<double> marched_;  // free end of the last march that filled the mesh
     Kind kind_ = Kind::rough;         // of the last march
+    bool careful_ = false;            // no more rough marches
     double since_derivatives_ = 0.0;  // rad: way from the last march with path and derivatives
 
     static bool has_path(Kind kind) { return kind == Kind::draft || kind == Kind::exact; }
@@ -212,6 +220,7 @@ class NewtonSolver {
     bool backtrack(Solution& solution, double* step, double size) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
         constexpr double ROUGH = 1e-3;   // rad
+        constexpr int MOST_ROUGH = 3;    // attempts; then it may be their own error that does not fall
         const FreeEnd<double> from = solution.free_end;
         const bool rough_before = !is_firm(kind_);
         const double longest = norm(step);
@@ -219,6 +228,7 @@ class NewtonSolver {
         for (int attempt = 0; attempt < 10; ++attempt, fraction *= 0.4) {
             shooting.move(from, step, fraction, solution.free_end);
             const Kind kind = next_kind(fraction, size, longest);
+            if (kind == Kind::rough && attempt >= MOST_ROUGH) break;
             if (!evaluate(solution, kind)) continue;
             if (solution.base_residual < (1.0 - 0.1 * fraction) * size) return true;
             // the residual before was only roughly known
@@ -236,6 +246,7 @@ class NewtonSolver {
         if (has_path(kind_)) since_derivatives_ = 0.0;
         since_derivatives_ += step;
         if ((has_path(kind_) || kind_ == Kind::check) && since_derivatives_ < CLOSE) return Kind::check;
+        if (careful_) return Kind::firm;
         return fraction == 1.0 && size < CLOSE ? Kind::draft : Kind::rough;
     }
 

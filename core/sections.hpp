@@ -274,4 +274,13 @@ Layout<P> cut_into_sections(const RobotOf<C>& robot, const P* translation, const
     return Cutter<P, C>(robot, translation, probe, withdrawn).cut();
 }
 
+/// Leaves away what lies before a place, short of the robot's end: there, a clamp holds the tubes from then on.
+inline Layout<double> clamped_at(double clamp, Layout<double> layout) {
+    size_t first = 0;
+    while (layout.sections[first].distal <= clamp + BREAKPOINT_GAP) ++first;
+    layout.sections.erase(layout.sections.begin(), layout.sections.begin() + first);
+    if (layout.sections.front().proximal < clamp) layout.sections.front().proximal = clamp;
+    return layout;
+}
+
 }  // namespace tactr

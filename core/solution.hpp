@@ -7,22 +7,18 @@
 
 namespace tactr {
 
-enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse = 3, collapsed = 4 };
+enum class Status { converged = 0, no_equilibrium = 1, stalled = 2, too_coarse = 3, collapsed = 4, too_sensitive = 5 };
 
 /// What is known of a solution's stability: unchecked where a guess chose the branch.
 enum class StabilityFound { unchecked = 0, stable = 1, unstable = 2 };
-
-constexpr long MOST_STEPS = 60000;
-
-/// Fewer with more than four tubes, whose steps take longer: a second or two, about three at the very most.
-inline long most_steps(int tubes) { return tubes > 4 ? MOST_STEPS * 4 / tubes : MOST_STEPS; }
 
 struct Settings {
     double tolerance = 1e-6;           // discretisation error at the tip and of tendons' lengths, m
     double residual_tolerance = 1e-9;  // rad at the base
     int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
-    long max_steps = MOST_STEPS;       // marched in all, a search for a stable solution included
+    long max_steps = 48000;            // marched by one way from cold: about a second at most
+    long most_work = 200000;           // steps marched in all, a search for a stable solution included
     bool stay = false;                 // with a guess: its branch or none, never from cold
 };
 
@@ -36,6 +32,7 @@ struct Solution {
     double length_error = std::numeric_limits<double>::max();          // of any tendon's length, m
     double least_stretch = 1.0;
     double shortest_tendon = 1.0;  // least |q| of the last marches; near 0: a tendon at the centre of curvature
+    double amplification = 1.0;    // where the robot was grown: by how much the base answers the free end, at the last clamp
     double base_determinant = 0.0;  // of d(base)/d(free end)
     bool used_continuation = false;
     StabilityFound stability = StabilityFound::unchecked;

@@ -1,38 +1,67 @@
 #include "solve.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "branches.hpp"
 #include "continuation.hpp"
+#include "growth.hpp"
 #include "newton.hpp"
 
 namespace tactr {
 
 namespace {
 
-bool converge_cold(NewtonSolver& newton, Solution& solution) {
+/// Steps marched by each way from cold: about a second at most. More tubes make dearer steps.
+long most_steps_of(const Robot& robot) { return Settings{}.max_steps / (1 + robot.tube_count); }
+
+bool converge_straight(NewtonSolver& newton, Solution& solution) {
     newton.start_straight(solution);
     if (newton.shooting.world) {
         newton.stand_up(solution);
     } else {
         newton.choose_mesh_and_wind(solution);
     }
-    if (newton.polish(solution)) return true;
-    solution.used_continuation = true;
-    const double missed = solution.base_residual;
-    Continuation continuation(newton, solution);
-    if (continuation.reach()) {
-        newton.choose_mesh(solution);
-        return newton.polish(solution);
+    return newton.polish(solution);
+}
+
+bool converge_growing(NewtonSolver& newton, Solution& solution) {
+    return Growth(newton, solution).reach() && newton.polish(solution);
+}
+
+bool converge_continued(NewtonSolver& newton, Solution& solution) {
+    if (!Continuation(newton, solution).reach()) return false;
+    newton.choose_mesh(solution);
+    return newton.polish(solution);
+}
+
+constexpr double MOST_AMPLIFIED = 1e6;  // by a part of the robot; by the whole of it, what rounding is to the free end matters
+
+/// By each way in turn, until one leads to a solution; each has its own bound on the steps marched.
+bool converge_cold(NewtonSolver& newton, Solution& solution) {
+    if (converge_straight(newton, solution)) return true;
+    const double missed = solution.base_residual, shortest = solution.shortest_tendon;
+    for (const auto way : {converge_growing, converge_continued}) {
+        if (solution.steps_marched >= newton.settings.most_work) break;
+        const long before = std::exchange(solution.steps_marched, 0);
+        solution.used_continuation = true;
+        solution.shortest_tendon = shortest;  // not that of what another way tried
+        const bool found = way(newton, solution);
+        solution.steps_marched += before;
+        if (found) return true;
     }
     solution.base_residual = missed;  // not that of the last point on the way
     // a tendon at the centre of curvature stops the curve short
     if (solution.shortest_tendon < 0.1) solution.status = Status::no_equilibrium;
+    if (solution.amplification > MOST_AMPLIFIED) solution.status = Status::too_sensitive;
     return false;
 }
 
 constexpr int MOST_NEARBY = 12;  // iterations on a neighbour's branch: where more are needed, it is none
 
 void solve_cold(NewtonSolver& newton, Solution& solution) {
-    if (converge_cold(newton, solution)) settle(newton, solution);
+    converge_cold(newton, solution);
+    Settler(newton, solution).settle();
 }
 
 /// From a neighbour's free end alone, where the robot is now cut into other sections: a tube's end has passed another's.
@@ -51,6 +80,7 @@ bool carry_over(NewtonSolver& newton, const Solution& guess, Solution& solution)
 void solve(const Robot& robot, const Actuation<double>& actuation, const Settings& given, const Solution* guess,
                   Solution& solution) {
     Settings settings = given;
+    settings.max_steps = std::min(most_steps_of(robot), given.most_work);
     if (guess && given.stay) settings.max_iterations = MOST_NEARBY;
     NewtonSolver newton(robot, actuation, settings);
     if (guess && ((newton.start_from(*guess, solution) && newton.polish(solution, NewtonSolver::Kind::draft)) ||
@@ -68,10 +98,7 @@ std::vector<Solution> branches(const Robot& robot, const Actuation<double>& actu
     NewtonSolver cold(robot, actuation, given);
     Solution first = blank;
     const bool converged = converge_cold(cold, first);
-    Settings settings = given;
-    settings.max_iterations = 25;
-    settings.max_steps = MOST_OF_ONE_START;
-    NewtonSolver newton(robot, actuation, settings);
+    NewtonSolver newton(robot, actuation, settings_of_one_start(given));
     if (!converged) {
         newton.start_straight(first);
         newton.choose_mesh(first);

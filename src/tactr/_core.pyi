@@ -31,6 +31,7 @@ class Solution:
     discretisation_error: float
     least_stretch: float
     shortest_tendon: float
+    amplification: float
     base_determinant: float
     used_continuation: bool
     stability: int

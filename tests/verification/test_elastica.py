@@ -58,3 +58,18 @@ def test_moment_of_2_pi_EI_over_L_closes_a_circle(axes: Axes) -> None:
     quarters = [(0, 0, 0), (r, 0, r), (2 * r, 0, 0), (r, 0, -r), (0, 0, 0)]
     np.testing.assert_allclose(shape.centreline, quarters, rtol=0.0, atol=1e-8)
     np.testing.assert_allclose(shape.tip_orientation, np.eye(3), rtol=0.0, atol=1e-8)
+
+
+@pytest.mark.parametrize("load", [100.0, 200.0])
+@pytest.mark.parametrize("angle", [0.7, 1.6, 2.5, 3.0])
+def test_hanging_from_a_large_force(load: float, angle: float) -> None:
+    """A long rod bends into the force's direction next to the clamp and is straight from there on, up to a
+    share exp(-k): sin(phi / 2) = sech(k s + c), k = sqrt(P / EI), the pendulum that comes to rest upside
+    down."""
+    c, s = math.cos(angle), math.sin(angle)
+    along, aside = np.array([0.8 * s, 0.6 * s, c]), np.array([-0.8 * c, -0.6 * c, s])
+    k = math.sqrt(load)
+    shape = tactr.solve(cantilever(PointLoad("rod", force=tuple(load * along))))
+    assert shape.converged and shape.stable
+    tip = (1.0 - 2.0 / k * (1.0 - math.cos(0.5 * angle))) * along + 2.0 / k * math.sin(0.5 * angle) * aside
+    np.testing.assert_allclose(shape.tip_position, tip, rtol=0.0, atol=1e-6 + 8.0 * math.exp(-k))

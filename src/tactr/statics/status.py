@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from enum import Enum
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,7 @@ class Status(str, Enum):
     STALLED = "stalled"
     TOO_COARSE = "too coarse"
     COLLAPSED = "collapsed"
+    TOO_SENSITIVE = "too sensitive"
     NOT_MET = "displacement not met"
 
 
@@ -36,6 +38,7 @@ _BY_CODE = (
     Status.STALLED,
     Status.TOO_COARSE,
     Status.COLLAPSED,
+    Status.TOO_SENSITIVE,
 )
 UNSTABLE = 2  # the kernel's code
 KINK = 0.1  # length of a pulled tendon per length of tube, below which the tube is bent round the tendon
@@ -63,6 +66,10 @@ def explain(status: Status, solution: _core.Solution, tolerance: float) -> str:
             f"{solution.section_residual:.1e}, discretisation {solution.discretisation_error:.1e} m"
             f"{_remark(status, solution)}"
         )
+    if status is Status.TOO_SENSITIVE:
+        # under a pulling force F the base answers the free end cosh(sqrt(F L^2 / EI)) times over
+        load = math.log(2.0 * solution.amplification) ** 2
+        return _TOO_SENSITIVE.format(s=solution, load=load)
     return _FAILURES[status].format(s=solution, tolerance=tolerance) if status in _FAILURES else ""
 
 
@@ -101,6 +108,13 @@ def _remark(status: Status, solution: _core.Solution) -> str:
         return "; the equilibrium found first was unstable, this is the stable one of least energy found"
     return ""
 
+
+_TOO_SENSITIVE = (
+    "no equilibrium was found: the base answers an angle at the free end {s.amplification:.0e} times over, "
+    "as under a pulling force of {load:.0f} EI/L^2 or more, so that in double precision the free end no "
+    "longer determines the base. Under such a load nearly all of the robot hangs along it like a string: "
+    "lower it (check its unit and size, and the tubes' stiffness), or take the part that hangs as a cable."
+)
 
 _FAILURES = {
     Status.NO_SECTION_EQUILIBRIUM: (
