@@ -360,6 +360,7 @@ class SectionSolver {
 
     /// Takes the Newton step in the strains and, to first order, in N and M, without evaluating them again.
     void step_linearly(const Section<P>& section, const double total[4][1], const double tube[MAX_TUBES][2][1], Strains& e) {
+        stretch_tendons(section, total, tube, e);
         e.kx += total[0][0];
         e.ky += total[1][0];
         e.wx += total[2][0];
@@ -373,6 +374,20 @@ class SectionSolver {
             M_[a][0] += along(rows_[a].Mx, total, tube[a]);
             M_[a][1] += along(rows_[a].My, total, tube[a]);
             M_[a][2] += along(rows_[a].M3, total, tube[a]);
+        }
+    }
+
+    /// Of the tendons' tangents only |q| is taken along: their lengths are read from it.
+    void stretch_tendons(const Section<P>& section, const double total[4][1], const double tube[MAX_TUBES][2][1], const Strains& e) {
+        for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
+            TendonTangent& tendon = tendon_tangents[h];
+            const int a = tendons[h].slot;
+            const double twist = tube[a][0][0], stretch = tube[a][1][0], f = 1.0 + e.eta[a];
+            const double x = f * total[2][0] + e.wx * stretch - twist * tendon.y;
+            const double y = f * total[3][0] + e.wy * stretch + twist * tendon.x;
+            const double z = stretch + total[0][0] * tendon.y - total[1][0] * tendon.x;
+            const double longer = tendon.t[0] * x + tendon.t[1] * y + tendon.t[2] * z;
+            tendon.inverse /= 1.0 + longer * tendon.inverse;
         }
     }
 
