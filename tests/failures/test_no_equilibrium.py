@@ -24,6 +24,7 @@ from tactr import (
 )
 from tactr.materials import nitinol
 from tactr.statics import Shape, Status
+from tactr.statics.stability import stability_of
 
 SOFT = Material(E=1e5, nu=0.45)
 
@@ -125,6 +126,17 @@ def test_a_bend_short_of_the_tendons_offset_is_found(tension: float) -> None:
 def test_the_tube_is_crushed() -> None:
     shape = tactr.solve(rod(0.0, PointLoad("rod", force=(0.0, 0.0, -0.95 * 75e9 * math.pi * 0.0005**2))))
     assert not shape.converged
+
+
+def test_stability_where_no_section_beside_has_an_equilibrium() -> None:
+    """The free end of a sound rod, under a load that crushes it: the kernel's Jacobi field is not found."""
+    sound = tactr.solve(rod(1.0))
+    crushed = tactr.Prepared(rod(1.0, PointLoad("rod", force=(0.0, 0.0, -1e7))))
+    stability = stability_of(crushed._core, sound._solution)
+    assert not stability.known and not stability.stable and not stability.near_limit
+    assert math.isnan(stability.margin) and stability.s.size == stability.conjugate_points.size == 0
+    assert "not known" in str(stability) and "not known" in repr(stability)
+    assert sound.stability.known
 
 
 def test_another_solve_after_a_failure() -> None:

@@ -173,7 +173,10 @@ class DisplacementSolver:
         flexibility = self._flexibility(start)
         if flexibility is None:
             return start
-        alone = np.abs(self._pulls.gap(start) / np.diag(flexibility))
+        own, gap = np.abs(np.diag(flexibility)), np.abs(self._pulls.gap(start))
+        alone = np.divide(
+            gap, own, out=np.zeros_like(gap), where=own > 0.0
+        )  # 0: a rigid one inside the guide
         for k in range(MOST_STARTS):
             tension = alone * SCATTER ** (2.0 * low_discrepancy(k, len(alone)) - 1.0)
             solution = self._solve(tension, None)
