@@ -144,3 +144,11 @@ def test_another_solve_after_a_failure() -> None:
     before = prepared.solve().tip_position
     assert not prepared.solve(tension=[1e6]).converged
     assert (prepared.solve().tip_position == before).all()
+
+
+def test_a_robot_that_hangs_like_a_string_says_so() -> None:
+    """At 2000 EI/L^2 the base answers the free end cosh(sqrt(2000)) = 1e19 times over."""
+    EI = rod(0.0).tubes[0].stiffness.EI_x
+    shape = tactr.solve(rod(0.0, PointLoad("rod", force=(2000.0 * EI / 0.2**2, 0.0, 0.0))))
+    assert shape.status is Status.TOO_SENSITIVE
+    assert "double precision" in shape.message and "EI/L^2" in shape.message and "check" in shape.message
