@@ -8,11 +8,10 @@ every one as it is done; seeds that the log has are not solved again, so that a 
 continued with other seeds. Prints the share that converges, the share that is stable, every failure by
 status, times, and every success that is none: over a tolerance of its own, or moved by more than the
 tolerance (but not onto another branch) by a solve from it with a tolerance of 1e-9 m, or with displacements
-that are not those of another solve at its tensions. Tendons' lengths are integrals on steps chosen for the
-tip: how far finer steps move displacements is printed, too. --held: all robots stay at their tensions, none
+that finer steps move by more than it, or that are not those of another solve at its tensions. Robots shown to
+have no smooth equilibrium (kinks.py) are left out and named. --held: all robots stay at their tensions, none
 is pulled by displacements. --any-force: tip forces up to 1 N, however slender the robot. Each with a log of
-its own. Exit code 1 when less than 99.9 % converge or a
-success is none.
+its own. Exit code 1 when less than 99.9 % converge or a success is none.
 
 --paths: follows random robots of the set along random paths instead: rotations, insertions and displacements
 or tensions change together, straight from corner to corner, 50 points each. Exit code 1 unless all points
@@ -35,11 +34,12 @@ from pathlib import Path
 
 import numpy as np
 from convergence import machine
+from kinks import kink_share
 from wide_paths import follow_random_path
 from wide_robots import displaced, slenderness, wide_robot
 
 from tactr.robot import Robot
-from tactr.statics import Prepared, Shape
+from tactr.statics import Prepared, Shape, Status
 
 WANTED = 0.999
 TOLERANCE, FINE = 1e-6, 1e-9  # m
@@ -51,7 +51,8 @@ ALLOWED = 2e-7  # m, in a displacement computed anew: twice what is allowed in o
 @dataclass(frozen=True)
 class Outcome:
     """One robot: what became of it. moved: the tip by finer steps, m; pull_error: displacements by
-    these, m; false: why a success is none, or empty."""
+    these, m; false: why a success is none, or empty. kink: above 0 where there is no smooth equilibrium: the
+    share of tensions and loads at which a tendon reaches the centre of curvature (see kinks.py)."""
 
     seed: int
     tubes: int
@@ -68,6 +69,7 @@ class Outcome:
     moved: float
     pull_error: float
     false: str
+    kink: float = 0.0
 
 
 def outcome_of(seed: int, *, held: bool, any_force: bool) -> Outcome:
@@ -76,6 +78,7 @@ def outcome_of(seed: int, *, held: bool, any_force: bool) -> Outcome:
     robot = robot if held else displaced(robot, seed, TOLERANCE)
     shape = Prepared(robot, tolerance=TOLERANCE, stations=2).solve()
     moved, pull_error, false = checked(robot, shape) if shape.converged else (0.0, 0.0, "")
+    kinked = shape.status is Status.KINKED and all(t.displacement is None for t in robot.tendons)
     return Outcome(
         seed=seed,
         tubes=len(robot.tubes),
@@ -92,6 +95,7 @@ def outcome_of(seed: int, *, held: bool, any_force: bool) -> Outcome:
         moved=moved,
         pull_error=pull_error,
         false=false,
+        kink=(kink_share(robot) or 0.0) if kinked else 0.0,
     )
 
 
@@ -115,6 +119,8 @@ def checked(robot: Robot, shape: Shape) -> tuple[float, float, str]:
         return moved, pull_error, "moved by finer steps"
     if not pulled:
         return moved, 0.0, ""
+    if pull_error > TOLERANCE + ALLOWED:
+        return moved, pull_error, "displacements moved by finer steps"
     again = Prepared(at, tolerance=TOLERANCE, stations=2).solve(guess=shape)
     held = again.converged and wrong_pull(robot, again) <= ALLOWED
     return moved, pull_error, "" if held else "displacements do not hold"
@@ -145,8 +151,11 @@ def solve_all(
     return [found[seed] for seed in seeds]
 
 
-def report(found: list[Outcome], wall: float) -> bool:
+def report(every: list[Outcome], wall: float) -> bool:
     """Print what was found; True when it is good enough."""
+    found = [o for o in every if not o.kink]
+    without = [(o.seed, round(o.kink, 3)) for o in every if o.kink]
+    print(f"without a smooth equilibrium, left out: {len(without)} {without or ''}")
     good, bad = [o for o in found if o.converged], [o for o in found if not o.converged]
     print(f"machine: {machine()}, load {os.getloadavg()[0]:.1f}; wall time {wall:.0f} s")
     print(f"converged: {share(found)}, cold start; stable: {sum(o.stable for o in good)}")
