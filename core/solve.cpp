@@ -26,7 +26,9 @@ bool converge_straight(NewtonSolver& newton, Solution& solution) {
 }
 
 bool converge_growing(NewtonSolver& newton, Solution& solution) {
-    return Growth(newton, solution).reach() && newton.polish(solution);
+    if (!Growth(newton, solution).reach()) return false;
+    if (newton.settings.fixed_steps > 0) newton.choose_mesh(solution);
+    return newton.polish(solution);
 }
 
 bool converge_continued(NewtonSolver& newton, Solution& solution) {
