@@ -120,7 +120,12 @@ def after(model: Model, first: np.ndarray, found: Found, known: Knowledge, loss:
         free.name for k, free in enumerate(model.frees) if not known.identifiable[k] and not found.held[k]
     ]
     if vague:
-        remarks.append(Remark("not-identifiable", f"the data do not tell {', '.join(vague)}"))
+        remarks.append(
+            Remark(
+                "not-identifiable",
+                f"the data do not tell {', '.join(vague)}; the calibrated robot has what the search left",
+            )
+        )
     return remarks
 
 

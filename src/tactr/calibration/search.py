@@ -14,7 +14,9 @@ from tactr.errors import RobotError
 
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 LOSSES: tuple[Loss, ...] = ("linear", "soft_l1", "huber", "cauchy")
-TUNING = 1.345  # noises, from where a robust loss weighs a residual less (Huber 1964: 95 % efficient)
+TUNING = (
+    1.345  # noises, from where a robust loss weighs a residual less (Huber 1964: his is 95 % efficient there)
+)
 ROUNDS = 8  # of the noise, which priors and robust losses need to be weighed against the data
 SETTLED = 0.01  # relative change of the noise
 NORMAL = 1.4826  # standard deviation of normal numbers over their median size
@@ -118,10 +120,22 @@ class _Least:
 
         inside = np.clip(values / self._scales, self._lower, self._upper)
         return least_squares(
-            fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._loss,
+            fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._rho(),
             f_scale=TUNING,
             xtol=1e-8, ftol=1e-6, gtol=1e-12, max_nfev=STEPS,
         )  # fmt: skip
+
+    def _rho(self) -> Any:
+        """The loss of measured coordinates; priors keep their squares."""
+        if self._loss == "linear" or not self._priors:
+            return self._loss
+        count = len(self._priors)
+
+        def rho(squares: np.ndarray) -> np.ndarray:
+            plain = [squares[-count:], np.ones(count), np.zeros(count)]
+            return np.concatenate([_rho(self._loss, squares[:-count]), plain], axis=1)
+
+        return rho
 
     def _from_priors(self, values: np.ndarray) -> np.ndarray:
         return np.array([(values[k] - mean) / deviation for k, mean, deviation in self._priors])
@@ -151,6 +165,17 @@ class _Least:
         psi = {h: _influence(self._loss, z + h) for h in (-step, 0.0, step)}
         slope = np.mean((psi[step] - psi[-step]) / (2 * step))
         return float(slope**2 / np.mean(psi[0.0] ** 2))
+
+
+def _rho(loss: str, z: np.ndarray) -> np.ndarray:
+    """The loss of z = (residual / TUNING)^2 and its two derivatives, (3, n), as least_squares takes them."""
+    if loss == "huber":
+        far, root = z > 1.0, np.sqrt(np.maximum(z, 1.0))
+        return np.where(far, [2 * root - 1, 1 / root, -0.5 / root**3], [z, np.ones_like(z), np.zeros_like(z)])
+    if loss == "soft_l1":
+        root = np.sqrt(1 + z)
+        return np.array([2 * (root - 1), 1 / root, -0.5 / root**3])
+    return np.array([np.log1p(z), 1 / (1 + z), -1 / (1 + z) ** 2])
 
 
 def _influence(loss: str, z: np.ndarray) -> np.ndarray:
