@@ -22,6 +22,7 @@ SETTLED = 0.01  # relative change of the noise
 NORMAL = 1.4826  # standard deviation of normal numbers over their median size
 FINEST = 1e-12  # m: data without noise are weighed as if they had this
 STEPS = 60
+INSIDE = 1e-2  # scales: how far from its bounds a number starts
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,9 @@ class _Least:
             priors = [np.eye(len(x))[k] * self._scales[k] / deviation for k, _, deviation in self._priors]
             return np.concatenate([rows, np.reshape(priors, (len(priors), len(x)))])
 
-        inside = np.clip(values / self._scales, self._lower, self._upper)
+        # From a bound the search would take steps too small to be seen in shapes solved to a tolerance.
+        room = np.minimum(INSIDE, 0.1 * (self._upper - self._lower))
+        inside = np.clip(values / self._scales, self._lower + room, self._upper - room)
         return least_squares(
             fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._rho(),
             f_scale=TUNING,
