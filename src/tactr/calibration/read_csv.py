@@ -114,7 +114,8 @@ def _column(table: Table, index: int, text: str) -> Column:
     first = "tip" if point else name.split(".")[0]
     if name != "time" and (first not in KIND or "." not in name or (first == "tip" and not point)):
         found = f"the column {printable(text)!r} is not known"
-        raise FileError(found, path=table.name, line=table.line, expected=f"names {EXAMPLES}")
+        expected = f"names {EXAMPLES}; or a mapping of columns, which leaves others out"
+        raise FileError(found, path=table.name, line=table.line, expected=expected)
     if point and point["s"]:
         name = f"{_place(table, point['s'])!r}.{point['axis']}"
     factor = _seconds(table, unit) if name == "time" else unit_factor(table, name, unit, KIND[first])
