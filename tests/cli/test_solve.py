@@ -21,7 +21,7 @@ def test_without_a_file_it_solves_two_tubes(run):
         "tension (N)",
         "converged in",
         "residual",
-        "error at the tip",
+        "discretisation error",
         "stable, margin",
         "assumed",
     ):
