@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -192,6 +193,7 @@ def test_rows_without_an_equilibrium_are_named() -> None:
     [
         (["tubes.rod.colour"], "nothing of the robot is called 'tubes.rod.colour'"),
         (["tendons.t0.zero", "tendons.*.zero"], "free twice"),
+        (["tendons.t7.zero"], "only tendons whose displacement is measured have a zero"),
         ([3], "paths or Parameter objects"),
         ([Parameter("tubes.rod.E", lower=70e9)], "a start within"),
     ],
@@ -237,3 +239,98 @@ def test_zeros_of_tendons_on_tubes_that_move() -> None:
     )
     with pytest.raises(RobotError, match=r"tendons\.t0\.zero.*rest_length"):
         tactr.calibrate(ROBOT, data, parameters=["tendons.t0.zero"])
+
+
+@pytest.mark.parametrize("kind", ["tension", "displacement"])
+def test_what_is_measured_cannot_be_free(kind: str) -> None:
+    robot = simulated.tension_robot() if kind == "tension" else ROBOT
+    robot = robot.with_actuation(tension={"t0": 1.0})
+    data = Measurements(np.full((9, 3), 0.1), **{kind: {"t0": np.linspace(0.0, 1e-3, 9)}})  # pyright: ignore
+    with pytest.raises(RobotError, match=r"tendons\.t0\.tension: the data say"):
+        tactr.calibrate(robot, data, parameters=["tendons.t0.tension"])
+
+
+def test_tubes_that_the_data_turn_cannot_be_free() -> None:
+    data = Measurements(np.full((9, 3), 0.1), rotation={"rod": np.linspace(0.0, 1.0, 9)})
+    with pytest.raises(RobotError, match=r"tubes\.rod\.rotation: the data say"):
+        tactr.calibrate(ROBOT, data, parameters=["tubes.rod.rotation"])
+
+
+def test_tendons_that_push_are_named_with_their_line(tmp_path: Path) -> None:
+    rows = table()
+    rows[4, 1] = -0.5
+    header = HEADER.replace("displacement", "tension").replace("[mm]", "[N]", 3)
+    rows[:, :3] = np.abs(rows[:, :3])
+    rows[4, 1] *= -1
+    data = Measurements.read(written(tmp_path, rows, header))
+    with pytest.raises(RobotError, match=r"tension\.t1: -0\.5 N in line 7; expected at least 0 N"):
+        tactr.calibrate(simulated.tension_robot(), data, parameters=["tubes.rod.E"])
+
+
+def test_a_near_miss_of_a_path_is_answered_first() -> None:
+    data = simulated.measured(ROBOT, "displacement", 5)
+    with pytest.raises(RobotError, match=r"'tubes.rood.E'; expected such as 'tubes.rod.material.E'"):
+        tactr.calibrate(ROBOT, data, parameters=["tubes.rood.E"])
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.replace(",", ";"),
+        lambda text: text.replace(",", "\t"),
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: "\ufeff" + text,
+        lambda text: text.replace("\n", ",,\n"),
+        lambda text: text.replace("[mm]", "(mm)"),
+    ],
+)
+def test_dialects_of_csv_say_the_same(change, tmp_path: Path) -> None:
+    path = written(tmp_path, table())
+    plain = Measurements.read(path)
+    path.write_bytes(change(path.read_text(encoding="utf-8")).encode())
+    again = Measurements.read(path)
+    np.testing.assert_array_equal(again.points, plain.points)
+    assert list(again.displacement) == list(plain.displacement)
+    assert again.lines is not None and plain.lines is not None and (again.lines == plain.lines).all()
+
+
+def decimal_commas(text: str) -> str:
+    return re.sub(r"(\d)\.(\d)", r"\1,\2", text)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda text: "", "data.csv: is empty"),
+        (lambda text: text.replace(HEADER, f"# {HEADER}"), "data.csv:3: .*no names.*not behind a #"),
+        (
+            lambda text: decimal_commas(text.replace(",", ";")),
+            "csv:3: displacement.t0: .* with a decimal point",
+        ),
+        (decimal_commas, "csv:3: 12 cells, but the head names 6 columns.*decimal points"),
+    ],
+)
+def test_files_that_say_something_else(change, told: str, tmp_path: Path) -> None:
+    path = written(tmp_path, table())
+    path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
+    with pytest.raises(FileError, match=told):
+        Measurements.read(path)
+
+
+def test_other_encodings_are_named(tmp_path: Path) -> None:
+    path = written(tmp_path, table())
+    path.write_bytes(path.read_text(encoding="utf-8").replace("[mm]", "[µm]").encode("latin-1"))
+    with pytest.raises(FileError, match="data.csv:2: is not a text in UTF-8"):
+        Measurements.read(path)
+
+
+def test_a_group_missing_at_the_end_of_a_line_is_empty(tmp_path: Path) -> None:
+    path = written(tmp_path, table(), HEADER + ",group")
+    assert Measurements.read(path).group == ("",) * 12
+
+
+def test_the_mapping_may_repeat_the_unit_that_the_head_has(tmp_path: Path) -> None:
+    header = "d [mm],b,c,x [mm],y,z"
+    path = written(tmp_path, table(), header)
+    columns = {"displacement.t0": "d [mm]", "tip.x": "x [mm]", "tip.y": "y [mm]", "tip.z": "z [mm]"}
+    assert Measurements.read(path, columns=columns).points == pytest.approx(table()[:, None, 3:] / 1e3)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import tactr
-from tactr import Frame, Parameter
+from tactr import Frame, Measurements, Parameter
 
 from . import simulated
 
@@ -126,3 +128,30 @@ def test_starts_find_the_far_minimum() -> None:
     several = tactr.calibrate(simulated.tension_robot(), data, parameters=free, starts=5)
     assert several["sensor.rz"].value == pytest.approx(2.8, abs=1e-4)
     assert len(several.left) == 5 and several.left[0] < 1e-6
+
+
+@pytest.mark.parametrize("loss", ["huber", "soft_l1", "cauchy"])
+def test_a_robust_loss_leaves_priors_as_they_are(loss) -> None:
+    """A prior 5 deviations off pulls as hard as it says, while exact data weigh as under least squares."""
+    data = simulated.measured(simulated.tension_robot(), "tension", 8)
+    alone = tactr.calibrate(simulated.tension_robot(), data, parameters=["tubes.rod.E"], noise=1e-3)
+    error = alone["tubes.rod.material.E"].error
+    assert error is not None
+    prior = Parameter("tubes.rod.E", prior=(61e9, 1e9))
+    noise = 1e-3 * 0.15e9 / error
+    fit = tactr.calibrate(simulated.tension_robot(), data, parameters=[prior], noise=noise, loss=loss)
+    pulled = 55e9 + 6e9 * 0.15**2 / (1 + 0.15**2)  # the mean of both by their variances
+    assert fit["tubes.rod.material.E"].value == pytest.approx(pulled, rel=5e-4)
+
+
+def test_a_search_that_starts_at_a_bound_leaves_it() -> None:
+    """Tendons that the robot file takes for stiff, and zeros of their motors, which pull alike at first."""
+    start = tactr.examples.load("two_tube_90")
+    truth = start.replace(tendons=tuple(replace(tendon, compliance=2e-4) for tendon in start.tendons))
+    pulled = np.random.default_rng(1).uniform(0.0, 4e-3, (8, 2))
+    tips = [tactr.solve(truth, displacement={"outer": a, "inner": b}).tip_position for a, b in pulled]
+    data = Measurements(np.array(tips), displacement={"outer": pulled[:, 0], "inner": pulled[:, 1]})
+    fit = tactr.calibrate(start, data, parameters=["tendons.*.compliance", "tendons.*.zero"])
+    for estimate in fit.estimates:
+        true = 2e-4 if estimate.name.endswith("compliance") else 0.0
+        assert estimate.state == "found" and estimate.value == pytest.approx(true, rel=1e-3, abs=1e-7)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,17 @@ def test_a_calibration_and_its_files(run, files, tmp_path):
     assert "tubes.rod.material.E" in out and "held out: mean" in out and "2 folds" in out
     assert f"wrote {saved}" in out and plotted.stat().st_size > 10_000
     assert tactr.load(saved).tubes[0].material.E == pytest.approx(TRUE, rel=0.01)  # pyright: ignore
+
+
+def test_the_saved_robot_with_the_settings_told_fits_as_well(run, files, tmp_path):
+    saved = tmp_path / "calibrated.yaml"
+    free = ("--free", "tubes.rod.E", "sensor.rx", "sensor.[xyz]", "--set", "marker.z=8 mm")
+    _, out, _ = run("calibrate", *map(str, files), *free, "--save", str(saved))
+    told = shlex.split(out.splitlines()[-1].partition(": ")[2])
+    assert told[0] == "--set" and len(told) == 6
+    _, again, _ = run("calibrate", str(saved), str(files[1]), *told)
+    (error,), (error_again,) = ([x for x in o.splitlines() if x.startswith("error:")] for o in (out, again))
+    assert error == error_again
 
 
 def test_json(run, files):

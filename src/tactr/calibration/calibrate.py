@@ -10,6 +10,7 @@ from typing import cast
 import numpy as np
 
 from tactr.calibration.checks import after, before
+from tactr.calibration.curvature import rough_intervals
 from tactr.calibration.frame import Frame
 from tactr.calibration.hold_out import Folds, HoldOut, fold_labels, hold_out_of
 from tactr.calibration.identify import knowledge
@@ -69,6 +70,7 @@ def calibrate(
         fit = partial(_fitted, robot, frame, frees, noise, loss, tolerance, tick)
         held = hold_out_of(data, labels, fit)
     remarks += after(model, first, found, known, loss) + _of_starts(costs)
+    remarks += rough_intervals(model, found.values, known)
     return Calibration.of(model, found, known, held, costs, noise is None, tuple(remarks))
 
 

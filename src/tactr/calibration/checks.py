@@ -10,7 +10,7 @@ from tactr.calibration.align import best_turn
 from tactr.calibration.frame import Frame
 from tactr.calibration.hold_out import distances
 from tactr.calibration.identify import Knowledge
-from tactr.calibration.measurements import Measurements, Remark, seen
+from tactr.calibration.measurements import ACTUATION, Measurements, Remark, seen
 from tactr.calibration.model import Model
 from tactr.calibration.parameters import ZERO, Free
 from tactr.calibration.search import Found
@@ -31,19 +31,41 @@ def before(robot: Robot, frame: Frame, data: Measurements, frees: Sequence[Free]
     if count + known < len(frees):
         found = f"{len(frees)} free numbers, but only {count} coordinates measured in {len(data)} rows"
         raise RobotError("parameters", found, "more rows, fewer free parameters, or priors")
+    _check_measured(data, frees)
     _check_zeros(robot, data, frees)
     reach = max(tube.tip for tube in robot.tubes)
     _check_points(data, frame, frees, reach)
-    longest = max(tube.length for tube in robot.tubes)
+    _check_actuation(data, longest=max(tube.length for tube in robot.tubes))
+    return list(data.remarks)
+
+
+def _check_measured(data: Measurements, frees: Sequence[Free]) -> None:
+    """What was measured in every row cannot be free as well."""
+    for path in (path for free in frees for path in free.paths):
+        name, _, kind = path.partition(".")[2].rpartition(".")
+        if kind not in ACTUATION or (path.startswith("tubes") != (kind in ("rotation", "translation"))):
+            continue
+        given = {*data.displacement, *data.tension} if kind == "tension" else getattr(data, kind)
+        if name in given:
+            found = "the data say for every row how it is actuated"
+            raise RobotError(path, found, "other parameters, such as tendons.NAME.zero for displacements")
+
+
+def _check_actuation(data: Measurements, longest: float) -> None:
     for kind, most, unit in (
         ("displacement", longest, "m"), ("translation", longest, "m"), ("tension", MOST_TENSION, "N"),
         ("rotation", MOST_ROTATION, "rad"),
     ):  # fmt: skip
         for name, values in getattr(data, kind).items():
-            if np.abs(values).max() > most:
-                found = f"{np.abs(values).max():.4g} {unit} is more than a robot can take; is the unit right?"
+            worst = int(np.argmax(np.abs(values)))
+            found = f"{values[worst]:.4g} {unit} in {data.row_name(worst)}"
+            if abs(values[worst]) > most:
+                found = f"{found} is more than a robot can take; is the unit right?"
                 raise RobotError(f"{kind}.{name}", found, f"at most {most:.4g} {unit}", value=values)
-    return list(data.remarks)
+            least = int(np.argmin(values))
+            if kind == "tension" and values[least] < 0.0:
+                found = f"{values[least]:.4g} N in {data.row_name(least)}"
+                raise RobotError(f"tension.{name}", found, "at least 0 N: a tendon cannot push", value=values)
 
 
 def _check_zeros(robot: Robot, data: Measurements, frees: Sequence[Free]) -> None:
@@ -98,7 +120,12 @@ def after(model: Model, first: np.ndarray, found: Found, known: Knowledge, loss:
         free.name for k, free in enumerate(model.frees) if not known.identifiable[k] and not found.held[k]
     ]
     if vague:
-        remarks.append(Remark("not-identifiable", f"the data do not tell {', '.join(vague)}"))
+        remarks.append(
+            Remark(
+                "not-identifiable",
+                f"the data do not tell {', '.join(vague)}; the calibrated robot has what the search left",
+            )
+        )
     return remarks
 
 

@@ -67,7 +67,7 @@ class Measurements:
 
     @classmethod
     def read(cls, path: str | Path, *, columns: str | Path | Mapping[str, str] | None = None) -> Measurements:
-        """From a CSV file. Columns are called by quantity and unit:
+        """From a CSV file (UTF-8; commas, semicolons or tabs). Columns are called by quantity and unit:
 
         "displacement.NAME [mm]", "tension.NAME [N]", "rotation.NAME [deg]", "translation.NAME [mm]",
         "tip.x [mm]" (and y, z), "at 120 mm.x [mm]" (a point at s = 120 mm), "time [s]", "group". Lines that

@@ -6,6 +6,7 @@ import fnmatch
 import math
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, fields, is_dataclass
+from difflib import get_close_matches
 from typing import Any
 
 from tactr.calibration.frame import Frame
@@ -138,9 +139,13 @@ def _matching(robot: Robot, path: str, known: list[str]) -> list[str]:
         found = [candidate for candidate in known if fnmatch.fnmatchcase(candidate, each)]
         if found:
             return found
-    raise RobotError(
-        "parameters", f"nothing of the robot is called {path!r}", check.near(path, known)[:600], value=path
-    )
+    if path.endswith(f".{ZERO}"):
+        found = "only tendons whose displacement is measured have a zero"
+        raise RobotError("parameters", f"{path!r}: {found}", 'columns "displacement.NAME [mm]"', value=path)
+    near = get_close_matches(short, known, n=5, cutoff=0.6)
+    near = near or [candidate for candidate in known if candidate.startswith(path.partition(".")[0])] or known
+    shown = ", ".join(repr(candidate) for candidate in near[:10]) + (", ..." if len(near) > 10 else "")
+    raise RobotError("parameters", f"nothing of the robot is called {path!r}", f"such as {shown}", value=path)
 
 
 def known_paths(robot: Robot, measured: Sequence[str]) -> list[str]:

@@ -14,12 +14,15 @@ from tactr.errors import RobotError
 
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 LOSSES: tuple[Loss, ...] = ("linear", "soft_l1", "huber", "cauchy")
-TUNING = 1.345  # noises, from where a robust loss weighs a residual less (Huber 1964: 95 % efficient)
+TUNING = (
+    1.345  # noises, from where a robust loss weighs a residual less (Huber 1964: his is 95 % efficient there)
+)
 ROUNDS = 8  # of the noise, which priors and robust losses need to be weighed against the data
 SETTLED = 0.01  # relative change of the noise
 NORMAL = 1.4826  # standard deviation of normal numbers over their median size
 FINEST = 1e-12  # m: data without noise are weighed as if they had this
 STEPS = 60
+INSIDE = 1e-2  # scales: how far from its bounds a number starts
 
 
 @dataclass(frozen=True)
@@ -116,12 +119,26 @@ class _Least:
             priors = [np.eye(len(x))[k] * self._scales[k] / deviation for k, _, deviation in self._priors]
             return np.concatenate([rows, np.reshape(priors, (len(priors), len(x)))])
 
-        inside = np.clip(values / self._scales, self._lower, self._upper)
+        # From a bound the search would take steps too small to be seen in shapes solved to a tolerance.
+        room = np.minimum(INSIDE, 0.1 * (self._upper - self._lower))
+        inside = np.clip(values / self._scales, self._lower + room, self._upper - room)
         return least_squares(
-            fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._loss,
+            fun, inside, jac=cast(Any, jac), bounds=(self._lower, self._upper), loss=self._rho(),
             f_scale=TUNING,
             xtol=1e-8, ftol=1e-6, gtol=1e-12, max_nfev=STEPS,
         )  # fmt: skip
+
+    def _rho(self) -> Any:
+        """The loss of measured coordinates; priors keep their squares."""
+        if self._loss == "linear" or not self._priors:
+            return self._loss
+        count = len(self._priors)
+
+        def rho(squares: np.ndarray) -> np.ndarray:
+            plain = [squares[-count:], np.ones(count), np.zeros(count)]
+            return np.concatenate([_rho(self._loss, squares[:-count]), plain], axis=1)
+
+        return rho
 
     def _from_priors(self, values: np.ndarray) -> np.ndarray:
         return np.array([(values[k] - mean) / deviation for k, mean, deviation in self._priors])
@@ -151,6 +168,17 @@ class _Least:
         psi = {h: _influence(self._loss, z + h) for h in (-step, 0.0, step)}
         slope = np.mean((psi[step] - psi[-step]) / (2 * step))
         return float(slope**2 / np.mean(psi[0.0] ** 2))
+
+
+def _rho(loss: str, z: np.ndarray) -> np.ndarray:
+    """The loss of z = (residual / TUNING)^2 and its two derivatives, (3, n), as least_squares takes them."""
+    if loss == "huber":
+        far, root = z > 1.0, np.sqrt(np.maximum(z, 1.0))
+        return np.where(far, [2 * root - 1, 1 / root, -0.5 / root**3], [z, np.ones_like(z), np.zeros_like(z)])
+    if loss == "soft_l1":
+        root = np.sqrt(1 + z)
+        return np.array([2 * (root - 1), 1 / root, -0.5 / root**3])
+    return np.array([np.log1p(z), 1 / (1 + z), -1 / (1 + z) ** 2])
 
 
 def _influence(loss: str, z: np.ndarray) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -167,6 +168,21 @@ def _write(result: Calibration, request: Request) -> None:
     print(result)
     for path in written:
         print(f"wrote {path}")
+    if request.save is not None and (settings := _frame_settings(result.frame)):
+        print(f"marker and sensor are not in it; to judge other data with it: --set {settings}")
+
+
+def _frame_settings(frame: Frame) -> str:
+    """What --set takes to put marker and sensor where they were found; empty where they are at home."""
+    from tactr.calibration.parameters import FRAME, vector_of
+
+    parts = []
+    for path in FRAME:
+        value = getattr(frame, vector_of(path))["xyz".index(path[-1])]
+        factor, unit = (math.degrees(1.0), "deg") if path.startswith("sensor.r") else (1e3, "mm")
+        if value:
+            parts.append(f'{path}="{value * factor:.6g} {unit}"')
+    return " ".join(parts)
 
 
 @contextmanager

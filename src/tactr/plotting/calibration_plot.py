@@ -48,15 +48,16 @@ def plot_calibration(result: Calibration, path: str | os.PathLike[str] | None = 
 
 def _over_rows(axes: Any, result: Calibration) -> None:
     rows = np.arange(len(result.error))
-    axes.plot(rows, result.error * 1e3, ".", ms=3, color=tube_colour(0), label="calibrated on all rows")
+    size = 3.0 if len(rows) > 200 else 7.0
+    axes.plot(rows, result.error * 1e3, ".", ms=size, color=tube_colour(0), label="calibrated on all rows")
     if result.hold_out is not None:
-        axes.plot(rows, result.hold_out.error * 1e3, ".", ms=3, color=tube_colour(1), label="held out")
+        axes.plot(rows, result.hold_out.error * 1e3, ".", ms=size, color=tube_colour(1), label="held out")
         for change in (
             np.flatnonzero(np.diff(result.hold_out.fold)) if len(result.hold_out.folds) < 20 else ()
         ):
             axes.axvline(change + 0.5, color="#BBBBBB", lw=0.8, zorder=0)
     axes.set(xlabel="row", ylabel="error (mm)", ylim=(0, None))
-    axes.legend(frameon=False, loc="upper right", markerscale=3)
+    axes.legend(frameon=False, loc="upper right", markerscale=9.0 / size)
 
 
 def _distribution(axes: Any, result: Calibration) -> None:
@@ -77,8 +78,10 @@ def _in_space(axes: Any, result: Calibration, across: int, up: int) -> None:
     ends = np.stack([measured[seen], predicted[seen]], axis=1)[:, :, [across, up]]
     from matplotlib.collections import LineCollection
 
-    axes.add_collection(LineCollection(list(ends), colors=tube_colour(1), linewidths=0.7))
-    axes.plot(*measured[seen][:, [across, up]].T, ".", ms=2.5, color=MARK_COLOUR)
+    axes.add_collection(LineCollection(list(ends), colors=tube_colour(1), linewidths=0.7, zorder=3))
+    axes.plot(
+        *measured[seen][:, [across, up]].T, ".", ms=2.5 if len(measured) > 200 else 5.0, color=MARK_COLOUR
+    )
     axes.set(xlabel=f"{AXES[across]} (mm)", ylabel=f"{AXES[up]} (mm)", aspect="equal")
     axes.set_title("measured (points) to predicted (lines)", fontsize="small")
     axes.autoscale_view()
@@ -91,12 +94,13 @@ def _by_component(axes: Any, result: Calibration) -> None:
     for k, axis in enumerate(AXES):
         axes.hist(
             seen[:, k],
-            bins=40,
+            bins=int(np.clip(np.sqrt(2.0 * len(seen)), 5, 40)),
             range=(-edge, edge),
             histtype="step",
             color=tube_colour(k),
             label=axis,
             lw=1.4,
         )
-    axes.set(xlabel="predicted - measured (mm)", ylabel="rows")
+    axes.set(xlabel="predicted - measured (mm)", ylabel="points")
+    axes.yaxis.get_major_locator().set_params(integer=True)
     axes.legend(frameon=False)

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import re
 from dataclasses import dataclass
 
 import numpy as np
 
 from tactr.errors import FileError
-from tactr.io.units import UnitError, kind, parse_quantity
+from tactr.io.csv_table import Table, heading, number, read_table, unit_factor
 
 AXES = ("x", "y", "z")
-HEAD = re.compile(r"\s*([xyz])\s*[\[(]\s*([^\])]+?)\s*[\])]\s*", re.IGNORECASE)
 EXPECTED = "a head such as x [mm], y [mm], z [mm]"
 
 
@@ -39,20 +36,16 @@ def read_points(text: str, name: str = "measured points") -> np.ndarray:
 
     Raises FileError with name and line.
     """
-    lines = text.lstrip("\ufeff").splitlines()
-    separator = next((mark for mark in ("\t", ";", ",") if lines and mark in lines[0]), ",")
-    rows = list(csv.reader(lines, delimiter=separator))
-    if not rows:
-        raise FileError("is empty", path=name, expected=EXPECTED)
-    columns = _columns(rows[0], name)
-    points = [
-        [factor * _number(row, column, axis, name, line) for axis, (column, factor) in columns.items()]
-        for line, row in enumerate(rows[1:], start=2)
-        if any(cell.strip() for cell in row)
-    ]
-    if not points:
+    table = read_table(text, name, EXPECTED)
+    columns = _columns(table)
+    if not table.rows:
         raise FileError("has a head but no points", path=name, expected="one point a line")
-    return np.array(points)
+    return np.array(
+        [
+            [factor * _finite(table, line, row, column, axis) for axis, (column, factor) in columns.items()]
+            for line, row in table.rows
+        ]
+    )
 
 
 def misfit(points: np.ndarray, centreline: np.ndarray, tip: np.ndarray) -> Misfit:
@@ -69,32 +62,28 @@ def misfit(points: np.ndarray, centreline: np.ndarray, tip: np.ndarray) -> Misfi
     return Misfit(float(least.mean()), float(least.max()), float(np.linalg.norm(points[-1] - tip)), gaps)
 
 
-def _columns(head: list[str], name: str) -> dict[str, tuple[int, float]]:
+def _columns(table: Table) -> dict[str, tuple[int, float]]:
     """Column and size of the unit in m, by axis."""
+    place = {"path": table.name, "line": table.line, "expected": EXPECTED}
     found: dict[str, tuple[int, float]] = {}
-    for k, cell in enumerate(head):
-        match = HEAD.fullmatch(cell)
-        if match is None:
+    for k, cell in enumerate(table.head):
+        axis, unit = heading(cell.lower())
+        if axis not in AXES or not unit:
             continue
-        axis = match[1].lower()
         if axis in found:
-            raise FileError("is given twice", path=name, line=1, field=axis, expected=EXPECTED)
-        try:
-            found[axis] = k, parse_quantity(f"1 {match[2]}", kind("length"))
-        except UnitError as error:
-            raise FileError(error.found, path=name, line=1, field=axis, expected=error.expected) from None
+            raise FileError("is given twice", field=axis, **place)
+        found[axis] = k, unit_factor(table, axis, heading(cell)[1], "length")
     for axis in AXES:
         if axis not in found:
-            raise FileError("is missing, or has no unit", path=name, line=1, field=axis, expected=EXPECTED)
+            raise FileError("is missing, or has no unit", field=axis, **place)
     return {axis: found[axis] for axis in AXES}
 
 
-def _number(row: list[str], column: int, axis: str, name: str, line: int) -> float:
-    cell = row[column].strip() if column < len(row) else ""
-    try:
-        number = float(cell)
-    except ValueError:
-        number = np.nan
-    if not np.isfinite(number):
-        raise FileError(f"{cell!r} is not a number", path=name, line=line, field=axis, expected="a number")
-    return number
+def _finite(table: Table, line: int, row: list[str], column: int, axis: str) -> float:
+    cell = row[column] if column < len(row) else ""
+    value = number(table, line, cell, axis)
+    if not np.isfinite(value):
+        raise FileError(
+            f"{cell!r} is not a number", path=table.name, line=line, field=axis, expected="a number"
+        )
+    return value

@@ -15,6 +15,7 @@ import numpy as np
 
 from tactr import examples
 from tactr.errors import TactrError
+from tactr.io.csv_table import decoded
 from tactr.robot import Robot
 from tactr.statics import Shape
 from tactr.viewer.busy import Busy
@@ -149,7 +150,8 @@ class Page(Outputs):
     def load_points(self, name: str, content: bytes) -> None:
         """Lay measured points over the robot."""
         try:
-            self._points = read_points(content.decode("utf-8", errors="replace"), Path(name).name)
+            name = Path(name).name
+            self._points = read_points(decoded(content, name), name)
         except TactrError as error:
             self.panel.errors([str(error)])
             return
