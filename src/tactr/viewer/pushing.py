@@ -25,7 +25,7 @@ def pushed(shape: Shape, force: tuple[float, float, float], goal: State) -> tupl
         candidate = solve(target, guess=shape)
         if not candidate.converged:
             return candidate, snapped
-        near = candidate.stable and _turn(shape, candidate) <= LONGEST_TURN
+        near = continues(shape, candidate)
         if not near and step > LEAST_STEP:
             step = max(0.5 * step, LEAST_STEP)
             continue
@@ -35,6 +35,11 @@ def pushed(shape: Shape, force: tuple[float, float, float], goal: State) -> tupl
             return candidate, snapped
         shape, done, step = candidate, ahead, GROWTH * step
     return shape, snapped
+
+
+def continues(shape: Shape, candidate: Shape) -> bool:
+    """Whether a shape is stable and so near to another one that no snap lies between."""
+    return candidate.converged and candidate.stable and _turn(shape, candidate) <= LONGEST_TURN
 
 
 def stable_near(shape: Shape, target: Robot) -> tuple[Shape, bool]:

@@ -8,7 +8,7 @@ from typing import Literal
 from tactr.errors import TactrError
 from tactr.robot import Robot
 from tactr.statics import Shape, follow, solve
-from tactr.viewer.pushing import pushed, stable_near
+from tactr.viewer.pushing import continues, pushed, stable_near
 from tactr.viewer.state import State
 
 NEAR_A_SNAP = 0.3
@@ -88,15 +88,22 @@ class Session:
         if last is None or before is None:
             return solve(state.actuated, guess=last), False
         if before.structure == state.structure:
-            target = _actuation(state.actuated)
-            followed = follow(last.robot, [{}, target], start=last)
-            return followed.shapes[-1], bool(followed.snaps)
+            return _followed(last, state.actuated)
         if (before.host, before.loads) == (state.host, state.loads):
             return pushed(last, before.tip_force, state)
         return stable_near(last, state.actuated)
 
     def _kept(self, state: State, headline: str, reason: str) -> Outcome:
         return Outcome(state, self._good, False, "bad", headline, reason)
+
+
+def _followed(shape: Shape, target: Robot) -> tuple[Shape, bool]:
+    """The shape of a robot on the branch of one whose actuation was another, and whether it snapped."""
+    near = solve(target, guess=shape)  # most moves are small: one step
+    if continues(shape, near):
+        return near, False
+    followed = follow(shape.robot, [{}, _actuation(target)], start=shape)
+    return followed.shapes[-1], bool(followed.snaps)
 
 
 def _actuation(robot: Robot) -> dict[str, dict[str, float]]:
