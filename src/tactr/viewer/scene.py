@@ -19,7 +19,7 @@ from tactr.viewer.widths import holds_tendons
 PER_METRE = 10.0
 """Units of the scene: a tenth of a metre each, because cameras like sizes near one."""
 
-GREYED, NESTED_OPACITY, HOLLOW_OPACITY = "#b5b5b5", 0.72, 0.18
+GREYED, NESTED_OPACITY, HOLLOW_OPACITY = "#b5b5b5", 0.6, 0.18
 TRACE_COLOUR, MEASURED_COLOUR, GAP_COLOUR = (30, 30, 30), (0, 0, 0), (204, 0, 119)
 AXIS_COLOURS = (200, 0, 0), (60, 160, 30)  # x, y: z is hidden in the robot
 HIDDEN = 1e-6  # scale of a disk that is not there
@@ -149,14 +149,11 @@ class Scene:
             shadow_opacity=0.0, fade_distance=1e3,
         )  # fmt: skip
         for k, name in enumerate("xy"):
-            for place in np.arange(5 * step, half + step, 5 * step):
-                at = np.zeros(3)
-                at[k] = PER_METRE * place
-                last = place > half - step
-                text = f"{1e3 * place:.0f} mm" + (f"  {name}" if last else "")
+            marks = {f"{1e3 * place:.0f} mm": place for place in np.arange(5 * step, half + step, 5 * step)}
+            for text, place in {name: 0.18 * reach, **marks}.items():
                 self._scene.add_label(
-                    f"{ground}/{name}_{1e3 * place:.0f}", text, position=at, font_screen_scale=0.8,
-                    anchor="center-center", depth_test=False,
+                    f"{ground}/{name}_{text}", text, position=PER_METRE * place * np.eye(3)[k],
+                    font_screen_scale=0.8, anchor="center-center", depth_test=False,
                 )  # fmt: skip
         axes = 1.6 * reach * np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]])
         axes[..., 2] = 0.02 * reach  # above the lines of the grid
@@ -182,6 +179,7 @@ class Scene:
         if len(drawn.frame_position):
             self._frames.batched_positions = PER_METRE * drawn.frame_position
             self._frames.batched_wxyzs = drawn.frame_wxyz
+        self._frames.axes_length = PER_METRE * drawn.frame_length
         self._frames.visible = len(drawn.frame_position) > 0
         self._ground.visible = settings.grid
 
