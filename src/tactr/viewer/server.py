@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import io
 import re
 import socket
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager
 from typing import Any
 
 from tactr.errors import MissingExtra, TactrError
@@ -28,7 +27,7 @@ def make_server(port: int | None = None) -> Any:
         import viser
     except ImportError:
         raise MissingExtra("viser", "view", "the page") from None
-    with redirect_stdout(io.StringIO()), _only_own_pages():  # viser draws a table
+    with _quiet(), _only_own_pages():
         server = viser.ViserServer(host=HOST, port=_free_port(port), verbose=False)
     _refuse_sharing(server)
     server.gui.configure_theme(
@@ -41,7 +40,7 @@ def make_server(port: int | None = None) -> Any:
 
 def stop_server(server: Any) -> None:
     """Stop a server without a word."""
-    with redirect_stdout(io.StringIO()):
+    with _quiet():
         server.stop()
 
 
@@ -74,6 +73,19 @@ def _light(scene: Any) -> None:
     scene.configure_default_lights(enabled=True, cast_shadow=False)
     scene.add_light_ambient("/light/ambient", intensity=2.2)
     scene.add_light_directional("/light/side", intensity=1.2, position=(4.0, -6.0, 2.0))
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """viser draws a table of its addresses, and says when it ends: in a notebook as output of a cell."""
+    import rich
+
+    console = rich.get_console()
+    before, console.quiet = console.quiet, True
+    try:
+        yield
+    finally:
+        console.quiet = before
 
 
 @contextmanager
