@@ -149,16 +149,19 @@ def test_pages_of_other_sites_are_kept_out(view, origin, let_in):
     from websockets.sync.client import connect
     from websockets.typing import Origin, Subprotocol
 
-    options = {
-        "origin": Origin(origin.format(view.port)),
-        "subprotocols": [Subprotocol(f"viser-v{viser.__version__}")],
-    }
+    def joined():
+        return connect(
+            f"ws://127.0.0.1:{view.port}",
+            origin=Origin(origin.format(view.port)),
+            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        )
+
     if let_in:
-        with connect(f"ws://127.0.0.1:{view.port}", **options) as socket:
-            assert len(bytes(socket.recv(timeout=10.0))) > 0
+        with joined() as socket:
+            assert len(socket.recv(timeout=10.0)) > 0
     else:
         with pytest.raises(InvalidStatus, match="403"):
-            connect(f"ws://127.0.0.1:{view.port}", **options)
+            joined()
 
 
 def test_a_robot_without_an_equilibrium_opens():
