@@ -132,6 +132,38 @@ def test_a_control_of_the_robot_before_moves_nothing(page):
     assert page.state.moved == {}
 
 
+@pytest.mark.parametrize(
+    ("origin", "let_in"),
+    [
+        ("http://127.0.0.1:{}", True),
+        ("http://localhost:{}", True),
+        ("http://evil.example", False),
+        ("http://evil.example:{}", False),
+        ("http://127.0.0.1.evil.example:{}", False),
+        ("null", False),
+    ],
+)
+def test_pages_of_other_sites_are_kept_out(view, origin, let_in):
+    import viser
+    from websockets.exceptions import InvalidStatus
+    from websockets.sync.client import connect
+    from websockets.typing import Origin, Subprotocol
+
+    def joined():
+        return connect(
+            f"ws://127.0.0.1:{view.port}",
+            origin=Origin(origin.format(view.port)),
+            subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
+        )
+
+    if let_in:
+        with joined() as socket:
+            assert len(socket.recv(timeout=10.0)) > 0
+    else:
+        with pytest.raises(InvalidStatus, match="403"):
+            joined()
+
+
 def test_a_robot_without_an_equilibrium_opens():
     robot = examples.load("two_tube_90")
     heavy = robot.replace(loads=(tactr.PointLoad("inner", force=(1e4, 0.0, 0.0)),))

@@ -57,7 +57,8 @@ def test_an_outer_tube_beyond_the_inner_ones_is_bare_there():
     assert (1, True) not in ends
 
 
-def test_tendons_follow_their_paths_with_colours_by_tension(shape):
+def test_tendons_follow_their_paths_with_colours_by_tension():
+    shape = tactr.solve(examples.load("two_tube_90"))
     drawn = picture(shape, most_tension=3.0)
     fine = shape.sample(np.unique([0.0, *(tube.tip for tube in shape.robot.tubes)]))
     for thread, tendon in zip(drawn.threads, fine.tendons, strict=True):
@@ -66,6 +67,22 @@ def test_tendons_follow_their_paths_with_colours_by_tension(shape):
         np.testing.assert_array_equal(thread.segments[1:, 0], thread.segments[:-1, 1])
     assert (drawn.threads[0].colours == SCALE[-1]).all()  # 3 N of 3 N
     np.testing.assert_array_equal(tension_colours(np.array([0.0]), 3.0)[0], SLACK)
+
+
+@pytest.mark.parametrize("tension", [(3.0, 2.0, 0.5), (0.5, 2.0, 3.0), (1.0, 1.0, 1.0)])
+def test_of_tendons_in_one_place_the_tightest_is_seen(tension):
+    """The three tendons of this robot all run at +y, each to the tip of its tube."""
+    shape = tactr.solve(examples.load("three_tube_a"), tension=tension)
+    whole = picture(shape).threads
+    seen = [thread.segments[[0, -1], [0, 1]] if len(thread.segments) else None for thread in whole]
+    tips = [shape.sample([tube.tip]).tendons[2].path[-1] for tube in shape.robot.tubes]
+    base = shape.tendons[2].path[0]
+    spans = [(base, tips[0]), (tips[0], tips[1]), (tips[1], tips[2])]
+    expected = [None, None, (base, tips[2])] if tension[2] == 3.0 else spans
+    for ends, span in zip(seen, expected, strict=True):
+        assert (ends is None) == (span is None)
+        if ends is not None and span is not None:
+            np.testing.assert_allclose(ends, span, atol=1e-6)
 
 
 def test_disks_stand_across_their_host_where_tendons_run_outside(shape):

@@ -33,6 +33,7 @@ def running() -> Iterator[tuple[subprocess.Popen, str]]:
             pipe.close()
 
 
+@pytest.mark.slow
 def test_closing_the_page_ends_it(running, browser):
     process, url = running
     page = browser.new_page(viewport={"width": 480, "height": 320})
@@ -78,6 +79,12 @@ def test_show_returns_a_view_when_not_asked_to_wait():
     assert view.page.outcome is not None and view.page.outcome.headline == "stable"
     view.close()
     view.close()  # twice is no harm
+
+
+def test_a_script_that_waits_says_where(monkeypatch, capsys):
+    monkeypatch.setattr(View, "wait", lambda self: None)
+    view = tactr.show(tactr.examples.load("two_tube_90"), block=True, browser=False)
+    assert capsys.readouterr().err == f"open {view.url} in a browser\n"
 
 
 def test_without_viser_the_extra_is_named(monkeypatch, capsys):

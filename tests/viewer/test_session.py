@@ -86,6 +86,42 @@ def test_a_snap_is_foretold_and_told():
     assert np.delete(steps, snap - 1).max() < 0.005
 
 
+def test_a_snap_is_told_where_motors_hold_tendons():
+    robot = _opposed()
+    routing = tactr.Straight(5e-3, 0.0)
+    robot = robot.replace(tendons=(tactr.Tendon("held", "outer", routing, displacement=0.0),))
+    session, state = Session(), State(robot)
+    seen = [
+        session.solve(state.with_value(("rotation", "inner"), float(angle))).headline
+        for angle in np.radians(np.append(np.arange(0.0, 180.0, 10.0), np.arange(180.0, 300.0, 4.0)))
+    ]
+    assert seen.count("snapped") == 1
+
+
+def test_a_snap_by_the_tip_force_is_told():
+    """A rod pressed down by twice its buckling force hangs over to the side of the force across, and flips
+    to the mirrored shape once that force points the other way."""
+    rod = tactr.Tube(
+        "rod", length=LENGTH, section=Annulus(1e-3, 0.0), material=tactr.Material(E=60e9, nu=0.3)
+    )
+    bending = 60e9 * np.pi * 0.5e-3**4 / 4.0
+    most = 2.0 * np.pi**2 * bending / (4.0 * LENGTH**2)
+    session, state = Session(), State(Robot([rod]))
+    session.solve(state.with_value(("force", "x"), most))
+    down = state.with_value(("force", "z"), -most)
+    outcomes = {
+        share: session.solve(down.with_value(("force", "x"), share * most))
+        for share in (0.7, 0.4, 0.1, 0.02, -0.1, -0.4, -0.7)
+    }
+    assert [outcome.headline for outcome in outcomes.values()].count("snapped") == 1
+    assert outcomes[0.02].headline == "near a snap"
+    assert outcomes[-0.1].headline == "snapped"
+    for share in (0.1, 0.4, 0.7):
+        before, after = outcomes[share].shape, outcomes[-share].shape
+        assert before is not None and after is not None
+        np.testing.assert_allclose(after.tip_position, before.tip_position * [-1, 1, 1], atol=1e-5)
+
+
 def test_rest_has_neither_tendons_nor_loads():
     session = Session()
     state = State(examples.load("two_tube_90")).with_value(("insertion", "inner"), 0.16)

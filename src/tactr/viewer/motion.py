@@ -7,10 +7,11 @@ from time import perf_counter
 
 from tactr.viewer.camera import FIELD_OF_VIEW, first_look
 from tactr.viewer.picture import picture
-from tactr.viewer.scene import PER_METRE, Scene
+from tactr.viewer.scene import Scene
 from tactr.viewer.server import make_server, stop_server
 from tactr.viewer.session import Outcome
 from tactr.viewer.settings import Settings
+from tactr.viewer.viser_units import PER_METRE
 
 LEAST_STEP = 0.08
 """Shortest time between frames, s."""

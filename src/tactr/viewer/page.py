@@ -29,11 +29,12 @@ from tactr.viewer.outputs import Outputs
 from tactr.viewer.panel import OWN_ROBOT, Panel
 from tactr.viewer.picture import picture
 from tactr.viewer.readings import row
-from tactr.viewer.scene import PER_METRE, Scene
+from tactr.viewer.scene import Scene
 from tactr.viewer.session import Outcome, Session
 from tactr.viewer.settings import Settings
 from tactr.viewer.state import HostChoice, State
 from tactr.viewer.status_html import busy_html, status_html
+from tactr.viewer.viser_units import PER_METRE
 from tactr.viewer.walls import wall_stations, walls
 
 TRACE_LENGTH, LEAST_TRACE_STEP = 600, 5e-5

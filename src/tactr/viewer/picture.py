@@ -10,26 +10,21 @@ from tactr.statics import Shape
 from tactr.viewer.arrows import load_arrows, load_places
 from tactr.viewer.disks import Disks, Places, disk_places, disks
 from tactr.viewer.frames import material_frames
-from tactr.viewer.tension_colours import tension_colours
+from tactr.viewer.threads import Thread, threads
 from tactr.viewer.walls import Wall, wall_stations, walls
+from tactr.viewer.widths import widest
 
 FRAMES_PER_TUBE = 9
 ARROW_SHARE = 0.16
 """Length of the longest arrow over that of the robot."""
-
-
-@dataclass(frozen=True, repr=False, eq=False)
-class Thread:
-    """A tendon: segments (n, 2, 3) m along its path and their colours (n, 2, 3) by tension."""
-
-    segments: np.ndarray
-    colours: np.ndarray
+FRAME_SHARE, FRAME_REACH = 0.04, 2.0
+"""Least length of a material frame's axes over that of the robot; over the radius of the widest tube."""
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Picture:
     """Walls of the tubes; threads of the tendons; disks; transitions (k, 3) m; material frames, position
-    (n, 3) m and wxyz (n, 4); arrows (m, 2, 3) m with colours (m, 3); tip (3,) m."""
+    (n, 3) m, wxyz (n, 4) and frame_length m of their axes; arrows (m, 2, 3) m, colours (m, 3); tip (3,) m."""
 
     walls: list[Wall]
     threads: list[Thread]
@@ -37,6 +32,7 @@ class Picture:
     transitions: np.ndarray
     frame_position: np.ndarray
     frame_wxyz: np.ndarray
+    frame_length: float
     arrows: np.ndarray
     arrow_colours: np.ndarray
     tip: np.ndarray
@@ -62,24 +58,18 @@ def picture(
     )
     fine = shape.sample(np.unique(s))
     frame_position, frame_wxyz = material_frames(fine, FRAMES_PER_TUBE if frames else 0)
-    arrows, colours = load_arrows(fine, ARROW_SHARE * max(tube.tip for tube in robot.tubes))
+    reach, radius = max(tube.tip for tube in robot.tubes), max(map(widest, robot.tubes))
+    arrows, colours = load_arrows(fine, ARROW_SHARE * reach)
     tips = sorted({tube.tip for tube in robot.tubes})[:-1]
     return Picture(
         walls=walls(fine, diameter_scale),
-        threads=[_thread(tendon.path, tendon.tension, most_tension) for tendon in fine.tendons],
+        threads=threads(fine.tendons, most_tension),
         disks=disks(fine, places),
         transitions=fine.centreline[np.searchsorted(fine.s, tips)].reshape(-1, 3),
         frame_position=frame_position,
         frame_wxyz=frame_wxyz,
+        frame_length=max(FRAME_SHARE * reach, FRAME_REACH * diameter_scale * radius),
         arrows=arrows,
         arrow_colours=colours,
         tip=shape.tip_position,
-    )
-
-
-def _thread(path: np.ndarray, tension: np.ndarray, most: float) -> Thread:
-    colours = tension_colours(tension, most)
-    return Thread(
-        np.stack([path[:-1], path[1:]], axis=1).reshape(-1, 2, 3),
-        np.stack([colours[:-1], colours[1:]], axis=1).reshape(-1, 2, 3),
     )

@@ -7,33 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from tactr.plotting.palette import GUIDE_COLOUR, mixed, tube_colour
+from tactr.plotting.palette import mixed, tube_colour
 from tactr.robot import Robot
-from tactr.viewer.disks import RIM, most_disks, round_step, unit_disk
+from tactr.viewer.disks import most_disks, unit_disk
 from tactr.viewer.picture import FRAMES_PER_TUBE, Picture
 from tactr.viewer.settings import Settings
 from tactr.viewer.surface import swept_faces, vertex_count
+from tactr.viewer.surroundings import add_surroundings
+from tactr.viewer.viser_units import PER_METRE, linear, rgb
 from tactr.viewer.walls import STATIONS, Wall
 from tactr.viewer.widths import holds_tendons
 
-PER_METRE = 10.0
-"""Units of the scene: a tenth of a metre each, because cameras like sizes near one."""
-
-GREYED, NESTED_OPACITY, HOLLOW_OPACITY = "#b5b5b5", 0.72, 0.18
+GREYED, NESTED_OPACITY, HOLLOW_OPACITY = "#b5b5b5", 0.6, 0.18
 TRACE_COLOUR, MEASURED_COLOUR, GAP_COLOUR = (30, 30, 30), (0, 0, 0), (204, 0, 119)
-AXIS_COLOURS = (200, 0, 0), (60, 160, 30)  # x, y: z is hidden in the robot
 HIDDEN = 1e-6  # scale of a disk that is not there
-
-
-def rgb(colour: str) -> tuple[int, int, int]:
-    """ "#rrggbb" as numbers."""
-    r, g, b = (int(colour[k : k + 2], 16) for k in (1, 3, 5))
-    return r, g, b
-
-
-def linear(colours: np.ndarray) -> np.ndarray:
-    """Colours of lines for viser, which takes those at points for linear light (IEC 61966-2-1)."""
-    return (255.0 * ((colours / 255.0 + 0.055) / 1.055) ** 2.4).round().astype(np.uint8)
 
 
 def _opacity(robot: Robot, tube: int, nested: bool) -> float | None:
@@ -107,7 +94,7 @@ class Scene:
         )  # fmt: skip
         self._add_disks(robot, root)
         self._add_frames(robot, root)
-        self._add_surroundings(robot, root)
+        self._ground = add_surroundings(scene, root, robot)
 
     def _add_disks(self, robot: Robot, root: str) -> None:
         self._most_disks = most_disks(robot)
@@ -128,43 +115,6 @@ class Scene:
             axes_length=0.4 * reach, axes_radius=0.02 * reach,
         )  # fmt: skip
 
-    def _add_surroundings(self, robot: Robot, root: str) -> None:
-        """The guide, and a ground with its scale in mm."""
-        reach = max(tube.tip for tube in robot.tubes)
-        widest = guide_radius(robot)
-        depth = 0.35 * widest + 0.004
-        vertices, faces = unit_disk()
-        vertices = (vertices - [0, 0, 0.5]) * [widest, widest, depth]
-        self._scene.add_mesh_simple(
-            f"{root}/guide", PER_METRE * vertices, faces, color=rgb(GUIDE_COLOUR), flat_shading=False,
-            cast_shadow=False, receive_shadow=False,
-        )  # fmt: skip
-        step = round_step(reach)
-        half = np.ceil(reach / (5 * step)) * 5 * step
-        ground = f"{root}/ground"
-        self._ground = self._scene.add_frame(ground, show_axes=False, position=(0, 0, -PER_METRE * depth))
-        self._scene.add_grid(
-            f"{ground}/grid", 2 * PER_METRE * half, 2 * PER_METRE * half, cell_size=PER_METRE * step,
-            section_size=5 * PER_METRE * step, cell_color=(226, 226, 226), section_color=(196, 196, 196),
-            shadow_opacity=0.0, fade_distance=1e3,
-        )  # fmt: skip
-        for k, name in enumerate("xy"):
-            for place in np.arange(5 * step, half + step, 5 * step):
-                at = np.zeros(3)
-                at[k] = PER_METRE * place
-                last = place > half - step
-                text = f"{1e3 * place:.0f} mm" + (f"  {name}" if last else "")
-                self._scene.add_label(
-                    f"{ground}/{name}_{1e3 * place:.0f}", text, position=at, font_screen_scale=0.8,
-                    anchor="center-center", depth_test=False,
-                )  # fmt: skip
-        axes = 1.6 * reach * np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]])
-        axes[..., 2] = 0.02 * reach  # above the lines of the grid
-        colours = linear(np.repeat(np.array(AXIS_COLOURS)[:, None], 2, axis=1))
-        self._scene.add_line_segments(
-            f"{ground}/axes", axes, colours, thickness=3.0, thickness_units="screen"
-        )
-
     def update(self, drawn: Picture, settings: Settings) -> None:
         """Show a picture."""
         self._colour(greyed=False)
@@ -182,6 +132,7 @@ class Scene:
         if len(drawn.frame_position):
             self._frames.batched_positions = PER_METRE * drawn.frame_position
             self._frames.batched_wxyzs = drawn.frame_wxyz
+        self._frames.axes_length = PER_METRE * drawn.frame_length
         self._frames.visible = len(drawn.frame_position) > 0
         self._ground.visible = settings.grid
 
@@ -265,13 +216,3 @@ class Scene:
         self._disks.batched_positions, self._disks.batched_wxyzs = position, wxyz
         self._disks.batched_scales = sizes
         self._disks.visible = settings.disks and shown > 0
-
-
-def guide_radius(robot: Robot) -> float:
-    """Radius of the guide drawn, m: round all tendons and tubes."""
-    offsets = [
-        float(np.hypot(*tendon.routing.r(max(0.0, -robot.tube(tendon.tube).translation))))
-        for tendon in robot.tendons
-    ]
-    tubes = [1.5 * (tube.outer_diameter or 2e-3) for tube in robot.tubes]
-    return RIM * 1.15 * max([*offsets, *tubes])

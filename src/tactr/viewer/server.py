@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-import io
+import re
 import socket
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from tactr.errors import MissingExtra, TactrError
 
 HOST = "127.0.0.1"
 FIRST_PORT, MOST_PORTS = 8080, 50
+OWN_PAGES = re.compile(r"https?://(127\.0\.0\.1|localhost|\[::1\])(:\d+)?")
+"""Origins that may talk to the server. A page of another site could otherwise move the robot."""
 
 
 class PortTaken(TactrError):
@@ -24,7 +27,7 @@ def make_server(port: int | None = None) -> Any:
         import viser
     except ImportError:
         raise MissingExtra("viser", "view", "the page") from None
-    with redirect_stdout(io.StringIO()):  # viser draws a table
+    with _quiet(), _only_own_pages():
         server = viser.ViserServer(host=HOST, port=_free_port(port), verbose=False)
     _refuse_sharing(server)
     server.gui.configure_theme(
@@ -37,7 +40,7 @@ def make_server(port: int | None = None) -> Any:
 
 def stop_server(server: Any) -> None:
     """Stop a server without a word."""
-    with redirect_stdout(io.StringIO()):
+    with _quiet():
         server.stop()
 
 
@@ -70,6 +73,40 @@ def _light(scene: Any) -> None:
     scene.configure_default_lights(enabled=True, cast_shadow=False)
     scene.add_light_ambient("/light/ambient", intensity=2.2)
     scene.add_light_directional("/light/side", intensity=1.2, position=(4.0, -6.0, 2.0))
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """viser draws a table of its addresses, and says when it ends: in a notebook as output of a cell."""
+    import rich
+
+    console = rich.get_console()
+    before, console.quiet = console.quiet, True
+    try:
+        yield
+    finally:
+        console.quiet = before
+
+
+@contextmanager
+def _only_own_pages() -> Iterator[None]:
+    """Servers started within refuse browsers' requests from other sites; programs, which name no origin, may
+    come. viser itself lets in whoever asks, and has no setting for it."""
+    from websockets.asyncio import server as sockets
+
+    serve, started = sockets.serve, []
+
+    def guarded(*arguments: Any, **options: Any) -> Any:
+        started.append(True)
+        return serve(*arguments, **options, origins=[None, OWN_PAGES])
+
+    sockets.serve = guarded  # type: ignore[assignment,misc]
+    try:
+        yield
+    finally:
+        sockets.serve = serve  # type: ignore[misc]
+    if not started:
+        raise TactrError("this version of viser cannot be kept from pages of other sites: use viser 1.1")
 
 
 def _refuse_sharing(server: Any) -> None:

@@ -8,6 +8,7 @@ from typing import Literal
 from tactr.errors import TactrError
 from tactr.robot import Robot
 from tactr.statics import Shape, follow, solve
+from tactr.viewer.pushing import continues, pushed, stable_near
 from tactr.viewer.state import State
 
 NEAR_A_SNAP = 0.3
@@ -32,17 +33,17 @@ class Outcome:
 class Session:
     """Solves states one after the other, each from the last solution; keeps the last good shape.
 
-    Between states of the same robot the branch is followed through its snaps; a change of loads or hosts is
-    one step, on the last shape's branch where that goes on."""
+    As tubes and tendons move and as the tip force grows, the branch is followed through its snaps; switched
+    loads or hosts are one step, on the last shape's branch where that goes on."""
 
     def __init__(self) -> None:
-        self._structure: Robot | None = None
         self._good: Shape | None = None
+        self._good_state: State | None = None
         self._rest: tuple[Robot, Shape] | None = None
 
     def start(self, shape: Shape | None = None) -> None:
         """Forget the robot so far; shape: a solution of the next one, to go on from."""
-        self._rest = self._structure = None
+        self._rest = self._good_state = None
         self._good = shape if shape is not None and shape.converged else None
 
     def solve(self, state: State) -> Outcome:
@@ -71,7 +72,7 @@ class Session:
             return self._kept(state, "no equilibrium", shape.message)
         if not shape.stable:
             return self._kept(state, "unstable", str(shape.stability))
-        self._good = shape
+        self._good, self._good_state = shape, state
         if snapped:
             reason = "On the way here the shape lost its stability and jumped to this one."
             return Outcome(state, shape, True, "warning", "snapped", reason)
@@ -83,31 +84,35 @@ class Session:
 
     def _moved(self, state: State) -> tuple[Shape, bool]:
         """The shape of a state, and whether the robot snapped on the way there from the last one."""
-        structure, target = state.structure, state.actuated
-        last, same = self._good, self._structure == structure
-        self._structure = structure
-        if last is None:
-            return solve(target), False
-        if same and not _pulled(last.robot) and not _pulled(target):
-            followed = follow(last.robot, [{}, _plain_actuation(target)], start=last)
-            return followed.shapes[-1], bool(followed.snaps)
-        shape = solve(target, guess=last)
-        lost = shape.converged and not shape.stable  # without a shape, a cold solve was tried as well
-        return solve(target) if lost else shape, False
+        last, before = self._good, self._good_state
+        if last is None or before is None:
+            return solve(state.actuated, guess=last), False
+        if before.structure == state.structure:
+            return _followed(last, state.actuated)
+        if (before.host, before.loads) == (state.host, state.loads):
+            return pushed(last, before.tip_force, state)
+        return stable_near(last, state.actuated)
 
     def _kept(self, state: State, headline: str, reason: str) -> Outcome:
         return Outcome(state, self._good, False, "bad", headline, reason)
 
 
-def _pulled(robot: Robot) -> bool:
-    """Whether a tendon is pulled by a displacement: such paths are not followed."""
-    return any(tendon.displacement is not None for tendon in robot.tendons)
+def _followed(shape: Shape, target: Robot) -> tuple[Shape, bool]:
+    """The shape of a robot on the branch of one whose actuation was another, and whether it snapped."""
+    near = solve(target, guess=shape)  # most moves are small: one step
+    if continues(shape, near):
+        return near, False
+    followed = follow(shape.robot, [{}, _actuation(target)], start=shape)
+    return followed.shapes[-1], bool(followed.snaps)
 
 
-def _plain_actuation(robot: Robot) -> dict[str, dict[str, float]]:
-    """All tensions that are numbers, rotations and translations, by name."""
+def _actuation(robot: Robot) -> dict[str, dict[str, float]]:
+    """All tensions that are numbers, displacements, rotations and translations, by name."""
+    pulled = {t.name: t.displacement for t in robot.tendons if t.displacement is not None}
+    plain = [t for t in robot.tendons if t.name not in pulled]
     return {
-        "tension": {t.name: t.tension for t in robot.tendons if isinstance(t.tension, float)},
+        "tension": {t.name: t.tension for t in plain if isinstance(t.tension, float)},
+        "displacement": pulled,
         "rotation": {tube.name: tube.rotation for tube in robot.tubes},
         "translation": {tube.name: tube.translation for tube in robot.tubes},
     }

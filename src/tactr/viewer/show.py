@@ -22,9 +22,10 @@ def show(
     """
     interactive = _in_notebook() or hasattr(sys, "ps1")
     view = View(shown, port=port)
-    if browser and not _in_notebook():
-        open_browser(view.url)
+    opened = browser and not _in_notebook() and open_browser(view.url)
     if block or (block is None and not interactive):
+        if not opened:  # to wait for a page that nobody knows of would be a hang
+            print(f"open {view.url} in a browser", file=sys.stderr, flush=True)
         try:
             view.wait()
         finally:

@@ -56,9 +56,11 @@ def _numbers(found: Readings | None) -> str:
         return ""
     x, y, z = 1e3 * found.tip
     i, j, k = found.direction
+    turned = ", ".join(f"{part:z.3f}" for part in found.quaternion)
     rows = [
         ("tip", f'<b data-tip="{x:.4f} {y:.4f} {z:.4f}">{_triple(x, y, z, 2)}</b> mm'),
         ("points to", _triple(i, j, k, 3)),
+        ("quaternion", f'<span title="of the tip, w first">{turned}</span>'),
     ]
     if found.lengths:
         rows.append(("tendons", _tendons(found)))
