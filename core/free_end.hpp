@@ -26,6 +26,7 @@ class Shooting {
   public:
     bool sums = false;   // whether the transverse resultants summed over the tubes can differ from zero
     bool world = false;  // any load in world axes
+    bool loaded = false;
     int unknowns = 0;
     int tip_tube = 0;    // the innermost tube that reaches the distal end
     double error_weight[STATES];
@@ -166,7 +167,7 @@ class Shooting {
     int tubes_;
 
     void note_load(int body_axes) {
-        sums = true;
+        sums = loaded = true;
         world = world || !body_axes;
     }
 
