@@ -268,6 +268,7 @@ class NewtonSolver {
             const double largest = *std::max_element(errors.begin(), errors.end());
             return largest > 0.0 ? sum * errors[k] / largest : 0.0;
         };
+        const double relief = allowed / larger(allowed, 0.15 * settings.tolerance);  // two steps are trusted again
         bool finer = false;
         for (size_t k = 0; k < section_error_.size(); ++k) {
             const double excess = larger(share(section_error_, k, solution.discretisation_error / (0.5 * allowed)),
@@ -276,9 +277,9 @@ class NewtonSolver {
             const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
             const double first = edge_error_[2 * k], last = edge_error_[2 * k + 1];
             const double grade = solution.mesh.even_grade(k, now, first, last);
-            const double left = excess * error_left(now, solution.mesh.grade_of(k), grade, first, last);
+            const double left = excess * relief * error_left(now, solution.mesh.grade_of(k), grade, first, last);
             int steps = now;
-            if (!(left < 0.7)) steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(smaller(3.0, std::pow(left, 0.125)) * now))));
+            if (now == 1 || !(left < 0.7)) steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(smaller(3.0, std::pow(left, 0.125)) * now))));
             finer = finer || steps > now || grade != solution.mesh.grade_of(k);
             solution.mesh.grade[k] = solution.mesh.even_grade(k, steps, first, last);
             solution.mesh.steps[k] = steps;
