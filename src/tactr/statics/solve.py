@@ -26,7 +26,7 @@ from tactr.statics.actuation import (
 )
 from tactr.statics.assemble import assemble
 from tactr.statics.displacement import DisplacementSolver
-from tactr.statics.held import Held
+from tactr.statics.held import MOST_STEPS, Held
 from tactr.statics.pulled_branches import PulledBranches
 from tactr.statics.pulls import LARGEST, Pulled
 from tactr.statics.rest import RestState, pulls_from
@@ -236,7 +236,16 @@ class Prepared:
         if actuated.displacement is not None:
             pulled = self._pulled(actuated, actuated.displacement, guess, stay)
             return self._shape(actuated, pulled.solution, perf_counter() - start, pulled)
-        solution = self._held(actuated).solve(actuated.arrays[0], _start(guess), stay=stay)
+        stays = stay and guess is not None
+        solution = _core.solve(
+            self._core,
+            *actuated.arrays,
+            self.tolerance,
+            self.residual_tolerance,
+            _start(guess),
+            stay=stays,
+            most_steps=MOST_STEPS,
+        )
         return self._shape(actuated, solution, perf_counter() - start)
 
     def _held(self, actuated: _Actuated) -> Held:
