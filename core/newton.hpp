@@ -251,14 +251,18 @@ class NewtonSolver {
     }
 
     /// The embedded estimate is trusted less where a section that matters has a single step. Under large loads that of a
-    /// single step fell short of the error by a factor of up to 20, in sections that did not seem to matter, too.
+    /// single step fell short of the error by a factor of up to 20, in sections that seemed to matter little, too.
     double allowed_error(const Solution& solution) const {
-        const double share = shooting.loaded ? 0.03 : 0.15, matters = shooting.loaded ? 0.0 : 0.3;
-        double largest = 0.0;
-        for (double error : section_error_) largest = larger(largest, error);
         for (size_t k = 0; k < section_error_.size(); ++k)
-            if (solution.mesh.steps[k] == 1 && section_error_[k] > matters * largest) return share * settings.tolerance;
+            if (is_doubtful(solution, k)) return (shooting.loaded ? 0.03 : SINGLE_STEP_SHARE) * settings.tolerance;
         return settings.tolerance;
+    }
+
+    static constexpr double SINGLE_STEP_SHARE = 0.15;
+
+    bool is_doubtful(const Solution& solution, size_t k) const {
+        const double largest = *std::max_element(section_error_.begin(), section_error_.end());
+        return solution.mesh.steps[k] == 1 && section_error_[k] > (shooting.loaded ? 0.01 : 0.3) * largest;
     }
 
     /// More steps, or better graded ones, where the error comes from: as many as an eighth-order rule needs to bring the
@@ -268,18 +272,19 @@ class NewtonSolver {
             const double largest = *std::max_element(errors.begin(), errors.end());
             return largest > 0.0 ? sum * errors[k] / largest : 0.0;
         };
-        const double relief = allowed / larger(allowed, 0.15 * settings.tolerance);  // two steps are trusted again
+        const double relief = allowed / larger(allowed, SINGLE_STEP_SHARE * settings.tolerance);  // two steps are trusted again
         bool finer = false;
         for (size_t k = 0; k < section_error_.size(); ++k) {
             const double excess = larger(share(section_error_, k, solution.discretisation_error / (0.5 * allowed)),
                                          share(length_error_, k, solution.length_error / (0.5 * settings.tolerance)));
-            if (!(excess > 0.5)) continue;
+            const bool doubtful = allowed < settings.tolerance && is_doubtful(solution, k);
+            if (!(excess > 0.5) && !doubtful) continue;
             const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
             const double first = edge_error_[2 * k], last = edge_error_[2 * k + 1];
             const double grade = solution.mesh.even_grade(k, now, first, last);
             const double left = excess * relief * error_left(now, solution.mesh.grade_of(k), grade, first, last);
             int steps = now;
-            if (now == 1 || !(left < 0.7)) steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(smaller(3.0, std::pow(left, 0.125)) * now))));
+            if (doubtful || !(left < 0.7)) steps = std::min(most, std::max(now + 1, static_cast<int>(std::ceil(smaller(3.0, std::pow(left, 0.125)) * now))));
             finer = finer || steps > now || grade != solution.mesh.grade_of(k);
             solution.mesh.grade[k] = solution.mesh.even_grade(k, steps, first, last);
             solution.mesh.steps[k] = steps;

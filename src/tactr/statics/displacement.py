@@ -32,8 +32,8 @@ SHORTEST, SHORTEST_COLD = 0.02, 0.2  # of a step
 CHORD = 0.02  # a step that left less of the gaps goes on with the same flexibility
 SCATTER = 4.0  # how many times more or less than the tension that a flexibility asks for
 MOST_STARTS = 60
-WORK_START, WORK_NEAR, WORK_COLD = 2.4e5, 4e4, 1.4e6  # see Held.allow: in all ways
-WORK_LED, WORK_SCATTERED = 3e4, 1e6  # some seconds
+WORK_START, WORK_NEAR, WORK_COLD = 2.4e5, 4e4, 7e5  # see Held.allow: in all ways
+WORK_LED, WORK_SCATTERED = 3e4, 7e5  # some seconds
 WORK_EACH = 2e5  # in one of many cold solves
 
 
