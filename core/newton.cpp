@@ -87,6 +87,7 @@ bool NewtonSolver::evaluate(Solution& solution, Kind kind) {
     solution.steps_marched += solution.mesh.total();
     ++solution.iterations;
     kind_ = kind;
+    if (has_path(kind)) estimate_ = kind;
     if (kind == Kind::check) return check(solution);
     const int lanes = shooting.unknowns + (has_path(kind) ? 1 : 0);
     return with_lanes(lanes, [&](auto count) { return evaluate_lanes<decltype(count)::value>(solution, kind); });

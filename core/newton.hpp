@@ -134,18 +134,24 @@ class NewtonSolver {
 
     /// Newton, then finer steps until the discretisation error is below tolerance.
     bool polish(Solution& solution, Kind first = Kind::rough) {
-        for (int round = 0; round < 8; ++round) {
+        for (int round = 0; round < 12; ++round) {
             if (!newton(solution, settings.residual_tolerance, first)) return false;
-            first = Kind::rough;
-            const bool fine = solution.discretisation_error <= allowed_error(solution) && solution.length_error <= settings.tolerance;
-            if (fine || settings.fixed_steps > 0) {
-                if (solution.least_stretch < LEAST_STRETCH) return fail(solution, Status::collapsed);
-                solution.status = Status::converged;
-                return true;
-            }
-            if (!refine(solution, allowed_error(solution))) break;
+            if (is_fine(solution) || settings.fixed_steps > 0) return succeed(solution);
+            // the estimate of a rough march holds what is left of its sections' equations too, which no finer steps lower
+            if (estimate_ != Kind::draft && !refine(solution, allowed_error(solution))) break;
+            first = Kind::exact;
         }
         return fail(solution, Status::too_coarse);
+    }
+
+    bool is_fine(const Solution& solution) const {
+        return solution.discretisation_error <= allowed_error(solution) && solution.length_error <= settings.tolerance;
+    }
+
+    static bool succeed(Solution& solution) {
+        if (solution.least_stretch < LEAST_STRETCH) return fail(solution, Status::collapsed);
+        solution.status = Status::converged;
+        return true;
     }
 
     /// The base residual at a free end, without derivatives.
@@ -165,6 +171,7 @@ class NewtonSolver {
   private:
     FreeEnd<double> marched_;  // free end of the last march that filled the mesh
     Kind kind_ = Kind::rough;         // of the last march
+    Kind estimate_ = Kind::exact;     // of the march that estimated the discretisation error
     bool careful_ = false;            // no more rough marches
     double since_derivatives_ = 0.0;  // rad: way from the last march with path and derivatives
 
