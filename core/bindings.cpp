@@ -17,6 +17,7 @@
 #include "sensitivity.hpp"
 #include "solve.hpp"
 #include "starts.hpp"
+#include "tube_friction.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -336,6 +337,41 @@ nb::tuple stability(const PreparedRobot& robot, const tactr::Solution& solution,
     return nb::make_tuple(report.stable, report.margin, array(report.s), array(report.determinant), array(report.conjugate));
 }
 
+/// nodes: a row for each: inner, outer (-1: the guide), s, arm, lever, radius, slide, torque, twist.
+nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
+                       double tolerance, double residual_tolerance, const Table& nodes, const tactr::Solution* guess, bool stay) {
+    check_columns(nodes, 9, "nodes");
+    std::vector<tactr::RubbingNode> list;
+    const auto is_tube = [&](double i) { return i >= 0.0 && i < static_cast<double>(robot.tubes.size()); };
+    for (size_t k = 0; k < nodes.shape(0); ++k) {
+        const double* row = &nodes(k, 0);
+        if (!is_tube(row[0]) || !(row[1] == -1.0 || is_tube(row[1]))) throw std::invalid_argument("node on no tube");
+        list.push_back({static_cast<int>(row[0]), static_cast<int>(row[1]), row[2], row[3], row[4], row[5], row[6], row[7], row[8]});
+    }
+    const tactr::Solution empty = blank(robot, tension, rotation, translation);
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    settings.stay = stay;
+    auto found = std::make_unique<tactr::FrictionStep>();
+    {
+        nb::gil_scoped_release release;
+        tactr::friction_step(robot, list, settings, empty, guess, *found);
+    }
+    nb::dict out;
+    out["torque"] = vector_of(found->torque.data(), found->torque.size());
+    out["twist"] = vector_of(found->twist.data(), found->twist.size());
+    out["limit"] = vector_of(found->limit.data(), found->limit.size());
+    out["pressing"] = vector_of(found->pressing.data(), found->pressing.size());
+    out["slides"] = vector_of(found->slides.data(), found->slides.size());
+    out["iterations"] = found->iterations;
+    out["missing"] = found->missing;
+    out["settled"] = found->settled;
+    out["robot"] = nb::cast(std::move(found->robot));
+    out["solution"] = nb::cast(std::move(found->solution));
+    return out;
+}
+
 double free_end_distance(const PreparedRobot& robot, const tactr::Solution& a, const tactr::Solution& b) {
     return tactr::free_end_distance(robot.view(), a, b);
 }
@@ -397,6 +433,9 @@ NB_MODULE(_core, m) {
     m.def("length_jacobian", &length_jacobian, "robot"_a, "solution"_a, "d(tendon lengths)/d(tensions).");
     m.def("joint_march", &joint_march, "robot"_a, "neighbour"_a, "step"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a,
           "One march from a moved free end: a solution to go on from, missed, d(missed, lengths)/d(free end, tensions); or None.");
+    m.def("friction_step", &friction_step, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a,
+          "residual_tolerance"_a, "nodes"_a, "guess"_a = nb::none(), "stay"_a = false,
+          "One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the nodes.");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
     m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         TendonLimits,
         TensionProfile,
         Tube,
+        TubeFriction,
         TubeLimits,
         VaryingStiffness,
     )
@@ -91,6 +92,7 @@ _HOME = {
         "TendonLimits",
         "TensionProfile",
         "Tube",
+        "TubeFriction",
         "TubeLimits",
         "VaryingStiffness",
     ),
@@ -166,6 +168,7 @@ __all__ = [
     "TendonShape",
     "TensionProfile",
     "Tube",
+    "TubeFriction",
     "TubeLimits",
     "TubeShape",
     "VaryingStiffness",

@@ -105,6 +105,20 @@ def potential_energy(robot: PreparedRobot, solution: Solution) -> float:
 def free_end_distance(robot: PreparedRobot, a: Solution, b: Solution) -> float:
     """Largest turn between two free ends, rad."""
 
+def friction_step(
+    robot: PreparedRobot,
+    tension: np.ndarray,
+    rotation: np.ndarray,
+    translation: np.ndarray,
+    tolerance: float,
+    residual_tolerance: float,
+    nodes: np.ndarray,
+    guess: Solution | None = None,
+    stay: bool = False,
+) -> dict[str, Any]:
+    """One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the
+    nodes."""
+
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""
 

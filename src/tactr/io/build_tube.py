@@ -19,6 +19,7 @@ from tactr.robot import (
     Stiffness,
     SymmetricNotches,
     Tube,
+    TubeFriction,
     TubeLimits,
     VaryingStiffness,
 )
@@ -50,6 +51,10 @@ def build_tube(data: dict[str, Any]) -> Tube:
         values["precurvature"] = _rest(data["precurvature"])
     if "limits" in data:
         values["limits"] = under("limits", lambda: TubeLimits(**data["limits"]))
+    if "friction" in data:
+        given = data["friction"]
+        friction = under("friction", lambda: TubeFriction(**given)) if isinstance(given, dict) else given
+        values["friction"] = friction
     try:
         return Tube(**values)
     except RobotError as error:

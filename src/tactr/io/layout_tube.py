@@ -195,6 +195,20 @@ TUBE_LIMITS = Record(
         "translation": Field(Items(LENGTH, 2), 'z of the proximal end, such as ["-60 mm", 0]'),
     },
 )
+TUBE_FRICTION = Either(
+    Record(
+        "Coulomb friction of the tube that turns in the next body around it.",
+        {
+            "coefficient": Field(quantity("number"), "of friction, at least 0", required=True),
+            "radius": Field(LENGTH, "of the contact; default half the tube's outer diameter"),
+            "lever": Field(
+                LENGTH,
+                "over which a concentrated contact moment is borne by two forces; default two outer diameters",
+            ),
+        },
+    ),
+    quantity("number"),
+)
 TUBE = Record(
     "One tube: its section is outer_diameter and inner_diameter, or diameter (a solid rod), or stiffness; or "
     "sections, one after the other.",
@@ -217,6 +231,11 @@ TUBE = Record(
         ),
         "rotation": Field(ANGLE, "angle about +z imposed at the proximal end; default 0"),
         "limits": Field(TUBE_LIMITS, "how far its actuators go, for sliders"),
+        "friction": Field(
+            TUBE_FRICTION,
+            "of the tube that turns in the next outer tube, the outermost one in the guide: a coefficient, "
+            "or with radius and lever",
+        ),
     },
     given(*SECTIONS, "sections"),
     choice=f"{CHOICE}, or sections",

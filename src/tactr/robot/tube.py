@@ -15,6 +15,7 @@ from tactr.robot.pieces import Pieces, PiecesLike, PrecurvatureLike, Vector3, pl
 from tactr.robot.rest import RestShape
 from tactr.robot.section import Section, Stiffness
 from tactr.robot.stretch import Stretch, stretches_of
+from tactr.robot.tube_friction import TubeFriction, plain_tube_friction
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,7 @@ class Tube:
     translation: float = 0.0
     rotation: float = 0.0
     limits: TubeLimits | None = None
+    friction: TubeFriction | None = None
 
     if TYPE_CHECKING:  # the constructor takes more forms than the fields store
 
@@ -55,6 +57,7 @@ class Tube:
             translation: float = 0.0,
             rotation: float = 0.0,
             limits: TubeLimits | None = None,
+            friction: TubeFriction | float | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -70,6 +73,7 @@ class Tube:
             check.store(self, material=plain_material(self.material, length))
             check.store(self, precurvature=plain_precurvature(self.precurvature, length))
             check_parts(self.parts, length)
+            check.store(self, friction=plain_tube_friction(self.friction, self.outer_diameter))
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:

@@ -1,0 +1,1 @@
+"""Friction: histories of actuation with what rubs on the way."""
