@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from tactr import examples, materials, reference, reproduce
     from tactr.calibration import Calibration, Frame, Measurements, Parameter, calibrate
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
+    from tactr.friction import Driven, DriveState, drive
     from tactr.io import load, save
     from tactr.robot import (
         Along,
@@ -66,6 +67,7 @@ if TYPE_CHECKING:
 _HOME = {
     "tactr.calibration": ("Calibration", "Frame", "Measurements", "Parameter", "calibrate"),
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
+    "tactr.friction": ("DriveState", "Driven", "drive"),
     "tactr.io": ("load", "save"),
     "tactr.robot": (
         "Along",
@@ -129,6 +131,8 @@ __all__ = [
     "Calibration",
     "Contact",
     "DistributedLoad",
+    "DriveState",
+    "Driven",
     "FileError",
     "Followed",
     "Frame",
@@ -173,6 +177,7 @@ __all__ = [
     "Work",
     "branches",
     "calibrate",
+    "drive",
     "examples",
     "follow",
     "load",

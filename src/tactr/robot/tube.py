@@ -29,7 +29,8 @@ class Tube:
     and rest shear and stretch. Pieces hold from ``start`` on, where start is the tube's own arc length sigma
     in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
     (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. limits: how far its
-    actuators go, if known. Raises RobotError.
+    actuators go, if known. rotation_play: rad, translation_play: m, at least 0: the whole backlash of its
+    actuators, which counts in ``tactr.drive`` only. Raises RobotError.
     """
 
     name: str
@@ -41,6 +42,8 @@ class Tube:
     translation: float = 0.0
     rotation: float = 0.0
     limits: TubeLimits | None = None
+    rotation_play: float = 0.0
+    translation_play: float = 0.0
 
     if TYPE_CHECKING:  # the constructor takes more forms than the fields store
 
@@ -55,6 +58,8 @@ class Tube:
             translation: float = 0.0,
             rotation: float = 0.0,
             limits: TubeLimits | None = None,
+            rotation_play: float = 0.0,
+            translation_play: float = 0.0,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -66,6 +71,8 @@ class Tube:
                 self, translation=plain_translation(self.translation), rotation=plain_rotation(self.rotation)
             )
             check.store(self, limits=plain_limits(self.limits, TubeLimits))
+            for field, unit in (("rotation_play", "rad"), ("translation_play", "m")):
+                check.store(self, **{field: check.real(field, getattr(self, field), unit, least=0)})
             check.store(self, section=plain_section(self.section, length))
             check.store(self, material=plain_material(self.material, length))
             check.store(self, precurvature=plain_precurvature(self.precurvature, length))
