@@ -48,11 +48,12 @@ class PressingReader : public EndsReader {
     }
 };
 
-/// Adds up what presses at every node, N: the share of a place between two nodes falls with its distance from them.
+/// Adds up what presses at every node, N: the share of a place between two nodes falls with its distance from them. Nodes
+/// at the ends of an overlap bear what is concentrated, those inside what is distributed, too.
 class Pressing {
   public:
-    Pressing(const std::vector<RubbingNode>& nodes, const Robot& robot, const Layout<double>& layout, const PressingReader& reader)
-        : nodes_(nodes), layout_(layout), reader_(reader) {
+    Pressing(const std::vector<RubbingNode>& nodes, const std::vector<char>& at_end, const Robot& robot, const Layout<double>& layout, const PressingReader& reader)
+        : nodes_(nodes), at_end_(at_end), layout_(layout), reader_(reader) {
         const double upright[4] = {1.0, 0.0, 0.0, 0.0};
         PointContactReader(robot, layout, reader).read(upright, points_);
     }
@@ -72,6 +73,7 @@ class Pressing {
 
   private:
     const std::vector<RubbingNode>& nodes_;
+    const std::vector<char>& at_end_;
     const Layout<double>& layout_;
     const PressingReader& reader_;
     std::vector<ContactRecord> points_;
@@ -140,7 +142,7 @@ class Pressing {
     void share(int outer, int inner, double s, const double* force, const double* couple, std::vector<double>& pressing) const {
         int before = -1, beyond = -1;
         for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
-            if (nodes_[k].outer != outer || nodes_[k].inner != inner) continue;
+            if (nodes_[k].outer != outer || nodes_[k].inner != inner || (!couple && at_end_[k])) continue;
             if (nodes_[k].s <= s + BREAKPOINT_GAP) before = k;
             if (nodes_[k].s >= s - BREAKPOINT_GAP && beyond < 0) beyond = k;
         }

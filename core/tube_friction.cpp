@@ -14,9 +14,9 @@ namespace {
 
 class FrictionStepper {
   public:
-    FrictionStepper(const RobotTables<double>& robot, const std::vector<RubbingNode>& nodes, const Settings& settings,
-                    const Solution& empty, FrictionStep& out)
-        : nodes_(nodes), settings_(settings), empty_(empty), out_(out), count_(nodes.size()),
+    FrictionStepper(const RobotTables<double>& robot, const std::vector<RubbingNode>& nodes, const std::vector<char>& at_end,
+                    const Settings& settings, const Solution& empty, FrictionStep& out)
+        : nodes_(nodes), at_end_(at_end), settings_(settings), empty_(empty), out_(out), count_(nodes.size()),
           first_load_(static_cast<int>(robot.point_loads.size())) {
         out_.robot = robot;
         out_.torque.resize(count_);
@@ -52,13 +52,13 @@ class FrictionStepper {
     static constexpr double SLOW = 0.3;    // of what was missing before: the compliance is another by now
 
     const std::vector<RubbingNode>& nodes_;
+    const std::vector<char>& at_end_;
     const Settings& settings_;
     const Solution& empty_;
     FrictionStep& out_;
     const size_t count_;
     const int first_load_;
     std::vector<char> felt_;
-    std::vector<double> compliance_;  // d(twist)/d(torque), row-major
 
     Actuation<double> actuation() const {
         return {empty_.tension.data(), empty_.rotation.data(), empty_.translation.data(), 1.0, 1.0};
@@ -94,7 +94,7 @@ class FrictionStepper {
         for (size_t k = 0; k < count_; ++k)
             if (nodes_[k].outer < 0) out_.twist[k] += at.rotation[0] - march.base.psi[0];
         out_.pressing.assign(count_, 0.0);
-        Pressing(nodes_, robot, layout, reader).add_to(out_.pressing);
+        Pressing(nodes_, at_end_, robot, layout, reader).add_to(out_.pressing);
         out_.limit.resize(count_);
         for (size_t k = 0; k < count_; ++k) out_.limit[k] = nodes_[k].arm * out_.pressing[k];
         return true;
@@ -140,7 +140,7 @@ class FrictionStepper {
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j) A[i][j] = missed[static_cast<size_t>(i) * inputs + j];
         if (n > 0 && invert(n, A, inverse) == 0.0) return false;
-        compliance_.assign(count_ * count_, 0.0);
+        out_.compliance.assign(count_ * count_, 0.0);
         for (size_t c = 0; c < count_; ++c) {
             double moved[MAX_UNKNOWNS];  // the free end, so that the base is met
             for (int i = 0; i < n; ++i) {
@@ -150,7 +150,7 @@ class FrictionStepper {
             for (size_t k = 0; k < count_; ++k) {
                 double sum = turned[k * inputs + n + c];
                 for (int i = 0; i < n; ++i) sum += turned[k * inputs + i] * moved[i];
-                compliance_[k * count_ + c] = sum;
+                out_.compliance[k * count_ + c] = sum;
             }
         }
         return true;
@@ -159,14 +159,14 @@ class FrictionStepper {
     /// Torques that hold, as far as the compliance tells; a node that slides along as it turns gives way in the direction
     /// of both.
     bool balance(std::vector<double>& torque) const {
-        std::vector<double> A = compliance_, b(count_), limit(count_);
+        std::vector<double> A = out_.compliance, b(count_), limit(count_);
         for (size_t k = 0; k < count_; ++k) {
             const RubbingNode& node = nodes_[k];
             const bool known = felt_[k] && !std::isnan(node.twist);
             limit[k] = known ? out_.limit[k] : 0.0;
             const double slip = known ? out_.twist[k] - node.twist : 0.0;
             b[k] = slip;
-            for (size_t c = 0; c < count_; ++c) b[k] -= compliance_[k * count_ + c] * out_.torque[c];
+            for (size_t c = 0; c < count_; ++c) b[k] -= out_.compliance[k * count_ + c] * out_.torque[c];
             if (node.slide != 0.0 && limit[k] > 0.0)
                 A[k * count_ + k] += std::hypot(node.radius * slip, node.slide) / (limit[k] * node.radius);
         }
@@ -183,7 +183,7 @@ class FrictionStepper {
         double worst = 0.0;
         for (size_t k = 0; k < count_; ++k) {
             double turn = 0.0;
-            for (size_t c = 0; c < count_; ++c) turn += compliance_[k * count_ + c] * (next[c] - out_.torque[c]);
+            for (size_t c = 0; c < count_; ++c) turn += out_.compliance[k * count_ + c] * (next[c] - out_.torque[c]);
             worst = larger(worst, std::fabs(turn));
         }
         return worst;
@@ -192,9 +192,9 @@ class FrictionStepper {
 
 }  // namespace
 
-void friction_step(const RobotTables<double>& robot, const std::vector<RubbingNode>& nodes, const Settings& settings,
-                   const Solution& empty, const Solution* guess, FrictionStep& out) {
-    FrictionStepper(robot, nodes, settings, empty, out).run(guess);
+void friction_step(const RobotTables<double>& robot, const std::vector<RubbingNode>& nodes, const std::vector<char>& at_end,
+                   const Settings& settings, const Solution& empty, const Solution* guess, FrictionStep& out) {
+    FrictionStepper(robot, nodes, at_end, settings, empty, out).run(guess);
 }
 
 }  // namespace tactr

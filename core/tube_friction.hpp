@@ -17,13 +17,15 @@ struct FrictionStep {
     Solution solution;
     std::vector<double> torque, twist, limit, pressing;  // by node; pressing: contact force, N
     std::vector<double> slides;       // by node: -1 or 1 where the inner tube turns on the outer one, against the torque; 0: it holds
+    std::vector<double> compliance;   // d(twist)/d(torque), row-major, of the last shape for which it was needed
     int iterations = 0;
     double missing = 0.0;             // rad, by which the last iteration would still have turned a node
     bool settled = false;
 };
 
-/// nodes: those of a pair side by side, by ascending s, the torques and angles before the step.
-void friction_step(const RobotTables<double>& robot, const std::vector<RubbingNode>& nodes, const Settings& settings,
-                   const Solution& empty, const Solution* guess, FrictionStep& out);
+/// nodes: those of a pair side by side, by ascending s, the torques and angles before the step. at_end: by node, whether it
+/// stands at an end of the pair's overlap.
+void friction_step(const RobotTables<double>& robot, const std::vector<RubbingNode>& nodes, const std::vector<char>& at_end,
+                   const Settings& settings, const Solution& empty, const Solution* guess, FrictionStep& out);
 
 }  // namespace tactr

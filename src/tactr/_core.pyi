@@ -19,6 +19,11 @@ class PreparedRobot:
         point_loads: np.ndarray,
         distributed_loads: np.ndarray,
     ) -> None: ...
+    def with_profiles(self, counts: list[int], profiles: np.ndarray) -> PreparedRobot:
+        """The same robot with other tension profiles, counts[j] pieces for tendon j."""
+
+    def section_ends(self, translation: np.ndarray) -> np.ndarray:
+        """Ends of the sections from base to tip, m from the guide's exit."""
 
 class Solution:
     """What a solve found."""

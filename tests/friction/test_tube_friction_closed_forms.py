@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from rods import COEFFICIENT, EI, FULL, GJ, LENGTH, PRESS, RADIUS, TORQUE, Driven, pressed_rod, soft
+from .rods import COEFFICIENT, EI, FULL, GJ, LENGTH, PRESS, RADIUS, TORQUE, Driven, pressed_rod, soft
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -15,7 +15,7 @@ from tactr import Robot, Tube, TubeFriction
 def torque_at_base(driven: Driven) -> float:
     """What turns the inner tube at its base: the sum of what holds it further out."""
     contact = driven.state.contacts[0]
-    return -float(contact.torque[1:].sum())
+    return -float(contact.torque.sum())
 
 
 def test_rest_takes_no_torque() -> None:
@@ -37,7 +37,7 @@ def test_front_of_a_first_turn(share: float) -> None:
     expected = TORQUE * np.clip(front - contact.s, 0.0, None) ** 2 / (2.0 * GJ)
     assert contact.twist == pytest.approx(expected, abs=FULL / (4.0 * cells**2) * 1.01)
     assert driven.tip_angle() == pytest.approx(0.0, abs=1e-7)
-    assert torque_at_base(driven) == pytest.approx(TORQUE * front, rel=0.03)
+    assert torque_at_base(driven) == pytest.approx(TORQUE * front, rel=1e-2)
 
 
 def test_order_of_the_places() -> None:
@@ -49,11 +49,7 @@ def test_order_of_the_places() -> None:
             driven = Driven(pressed_rod(), cells=cells)
             driven.to(rotation=[0.0, 0.0])
             driven.to(rotation={"inner": share * FULL})
-            contact = driven.state.contacts[0]
-            # the first place, at the clamped base, bears its half cell without a sign of it
-            torque = torque_at_base(driven) + 0.5 * TORQUE * LENGTH / cells
-            worst = max(worst, abs(torque**2 / (2.0 * GJ * TORQUE) - share * FULL))
-            assert not contact.torque[0] or contact.s[0] == 0.0
+            worst = max(worst, abs(torque_at_base(driven) ** 2 / (2.0 * GJ * TORQUE) - share * FULL))
         errors.append(worst / FULL)
         assert worst / FULL <= 1.0 / (4.0 * cells**2) * 1.001
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
@@ -98,7 +94,7 @@ def test_friction_resists() -> None:
         tips = driven.turn(sign * np.array([0.0, 2.0]) * FULL)
         contact = driven.state.contacts[0]
         assert sign * tips[1] == pytest.approx(FULL, rel=1e-5)
-        assert (sign * contact.torque[1:] < 0.0).all() and (sign * contact.slides[1:] > 0.0).all()
+        assert (sign * contact.torque[1:-1] < 0.0).all() and (sign * contact.slides[1:-1] > 0.0).all()
 
 
 def test_contact_force_of_a_tube_that_bears_its_share() -> None:
@@ -116,6 +112,7 @@ def test_contact_force_of_a_tube_that_bears_its_share() -> None:
     limit = driven.state.contacts[0].limit
     even = COEFFICIENT * RADIUS * 0.75 * PRESS * LENGTH / 8
     assert limit[1:-1] == pytest.approx(even, rel=1e-4)
+    assert len(limit) == 10
 
 
 def curved_pair(lever: float = 4e-3) -> Robot:
@@ -166,9 +163,9 @@ def test_contact_force_of_two_curved_tubes() -> None:
     angle, slope = theta(s)
     force = 0.5 * (EI - GJ) * kappa * np.cos(0.5 * angle) * slope
     press = np.abs(np.gradient(force, s))
-    edges = np.linspace(0.0, LENGTH, cells + 1)
-    weights = np.clip(1.0 - np.abs(s[:, None] - edges) * cells / LENGTH, 0.0, None)
-    expected = np.trapezoid(press[:, None] * weights, s, axis=0)
+    cell = np.minimum((s * cells / LENGTH).astype(int), cells - 1)
+    expected = np.array([np.trapezoid(press[cell == k], s[cell == k]) for k in range(cells)])
     limit = driven.state.contacts[0].limit / (1e-9 * RADIUS)
-    assert limit[1:-1] == pytest.approx(expected[1:-1], rel=0.02, abs=0.01 * expected.max())
-    assert limit[0] == pytest.approx(expected[0] + abs(force[0]), rel=0.02)
+    assert limit[1:-1] == pytest.approx(expected, rel=0.02, abs=0.02 * expected.max())
+    assert limit[0] == pytest.approx(abs(force[0]), rel=1e-3)
+    assert limit[-1] == pytest.approx(0.0, abs=1e-3 * limit[0])

@@ -1,8 +1,9 @@
 """Where tubes rub: places along the overlap of neighbours, and at the guide's exit.
 
-Each place stands for the stretch around it, as far as half the way to the next: the friction torque of what
-presses there acts at the place itself. For a straight tube under an even contact force the twist between
-base and tip at a given torque is then off by at most 1/(4 cells^2) of its largest value.
+An overlap is cut into cells alike, and the friction torque of what presses along a cell acts at its middle;
+two more places at the ends bear what presses there at one point. For a straight tube under an even contact
+force the twist between base and tip at a given torque is then off by at most 1/(4 cells^2) of its largest
+value.
 """
 
 from __future__ import annotations
@@ -55,6 +56,7 @@ def _places(i: int, tips: list[float], cells: int) -> list[tuple[int, np.ndarray
     for outer in range(i - 1, -1, -1):
         end = min(tips[outer], tips[i])
         if end - start > LEAST_OVERLAP:
-            found.append((outer, np.linspace(start, end, cells + 1)))
+            middles = (np.arange(cells) + 0.5) / cells
+            found.append((outer, start + (end - start) * np.concatenate([[0.0], middles, [1.0]])))
         start = max(start, tips[outer])
     return found

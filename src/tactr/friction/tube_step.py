@@ -20,7 +20,8 @@ class Rubbed(NamedTuple):
     """The kernel's robot with the friction torques as loads, its solution there, and the state.
 
     settled: whether torques and contact forces agree; otherwise neither solution nor state mean anything.
-    iterations: equilibria that it took.
+    iterations: equilibria that it took. held: in how many directions of falling energy the places that hold
+    keep the robot from going.
     """
 
     core: _core.PreparedRobot
@@ -28,6 +29,7 @@ class Rubbed(NamedTuple):
     state: TubeFrictionState
     settled: bool
     iterations: int
+    held: int
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ class TubeFrictionStep:
         before = [_contact_before(place, names, state) for place in places]
         slides = np.zeros(len(names)) if state is None else arrays[2] - state.translation
         rows = [_rows(place, contact, slides) for place, contact in zip(places, before, strict=True)]
-        nodes = np.concatenate([*rows, np.empty((0, 9))])
+        nodes = np.concatenate([*rows, np.empty((0, 10))])
         found = _core.friction_step(
             core, *arrays, self.tolerance, self.residual_tolerance, nodes, guess, stay=stay
         )
@@ -70,14 +72,26 @@ class TubeFrictionStep:
             TubeFrictionState(_contacts(places, names, nodes, found), np.array(arrays[2])),
             found["settled"],
             found["iterations"],
+            _held(nodes, found) if found["settled"] else 0,
         )
+
+
+def _held(nodes: np.ndarray, found: dict[str, np.ndarray]) -> int:
+    """Places that hold forbid the motions that turn them. The second variation of the energy is negative in
+    as many directions fewer as the compliance of these places, d(twist)/d(torque), has negative eigenvalues
+    (Haynsworth's inertia formula for the bordered matrix)."""
+    holds = (found["slides"] == 0.0) & (found["limit"] > 0.0) & (nodes[:, 6] == 0.0)
+    compliance = found["compliance"]
+    holds &= np.diag(compliance) != 0.0  # some place turns with nothing
+    among = compliance[np.ix_(holds, holds)]
+    return int((np.linalg.eigvalsh(0.5 * (among + among.T)) < 0.0).sum()) if holds.any() else 0
 
 
 def _contact_before(place: Overlap, names: list[str], state: TubeFrictionState | None) -> TubeContact | None:
     if state is None:
         return None
     pair = (names[place.inner], None if place.outer == GUIDE else names[place.outer])
-    for contact in state.contacts:
+    for contact in state.contacts:  # found by names: translations bring new neighbours together
         if (contact.inner, contact.outer) == pair:
             if len(contact.s) != len(place.s):
                 raise RobotError(
@@ -90,13 +104,14 @@ def _contact_before(place: Overlap, names: list[str], state: TubeFrictionState |
 
 
 def _rows(place: Overlap, before: TubeContact | None, slides: np.ndarray) -> np.ndarray:
-    """The kernel's nodes: inner, outer, s, arm, lever, radius, slide, torque, twist."""
-    rows = np.empty((len(place.s), 9))
+    """The kernel's nodes: inner, outer, s, arm, lever, radius, slide, torque, twist, at an end."""
+    rows = np.zeros((len(place.s), 10))
     rows[:, 0], rows[:, 1], rows[:, 2] = place.inner, place.outer, place.s
     rows[:, 3], rows[:, 4], rows[:, 5] = place.arm, place.lever, place.radius
     rows[:, 6] = slides[place.inner] - (0.0 if place.outer == GUIDE else slides[place.outer])
     rows[:, 7] = 0.0 if before is None else before.torque
     rows[:, 8] = np.nan if before is None else before.twist
+    rows[[0, -1], 9] = 1.0
     return rows
 
 

@@ -37,7 +37,8 @@ def under(prefix: str, make: Callable[[], T]) -> T:
 
 def build_tube(data: dict[str, Any]) -> Tube:
     """The tube. Raises RobotError with the field as the file names it."""
-    values = {key: data[key] for key in ("name", "length", "translation", "rotation") if key in data}
+    plain = ("name", "length", "translation", "rotation", "rotation_play", "translation_play")
+    values = {key: data[key] for key in plain if key in data}
     if "sections" in data:
         values["section"] = [
             (piece["from"], under(f"sections[{k}]", lambda piece=piece: _section(piece)))

@@ -77,6 +77,10 @@ def unbuild_tube(tube: Tube, place: str) -> dict[str, Any]:
         data["rotation"] = write(tube.rotation, "angle")
     if tube.limits is not None:
         data["limits"] = write_ranges(tube.limits, rotation="angle", translation="length")
+    if tube.rotation_play:
+        data["rotation_play"] = write(tube.rotation_play, "angle")
+    if tube.translation_play:
+        data["translation_play"] = write(tube.translation_play, "length")
     if tube.friction is not None:
         data["friction"] = _friction(tube.friction)
     return data

@@ -30,7 +30,8 @@ class Tube:
     and rest shear and stretch. Pieces hold from ``start`` on, where start is the tube's own arc length sigma
     in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
     (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. limits: how far its
-    actuators go, if known. Raises RobotError.
+    actuators go, if known. rotation_play: rad, translation_play: m, at least 0: the whole backlash of its
+    actuators, which counts in ``tactr.drive`` only. Raises RobotError.
     """
 
     name: str
@@ -42,6 +43,8 @@ class Tube:
     translation: float = 0.0
     rotation: float = 0.0
     limits: TubeLimits | None = None
+    rotation_play: float = 0.0
+    translation_play: float = 0.0
     friction: TubeFriction | None = None
 
     if TYPE_CHECKING:  # the constructor takes more forms than the fields store
@@ -57,6 +60,8 @@ class Tube:
             translation: float = 0.0,
             rotation: float = 0.0,
             limits: TubeLimits | None = None,
+            rotation_play: float = 0.0,
+            translation_play: float = 0.0,
             friction: TubeFriction | float | None = None,
         ) -> None: ...
 
@@ -69,6 +74,8 @@ class Tube:
                 self, translation=plain_translation(self.translation), rotation=plain_rotation(self.rotation)
             )
             check.store(self, limits=plain_limits(self.limits, TubeLimits))
+            for field, unit in (("rotation_play", "rad"), ("translation_play", "m")):
+                check.store(self, **{field: check.real(field, getattr(self, field), unit, least=0)})
             check.store(self, section=plain_section(self.section, length))
             check.store(self, material=plain_material(self.material, length))
             check.store(self, precurvature=plain_precurvature(self.precurvature, length))
