@@ -20,6 +20,11 @@ class FrictionStepper {
           first_load_(static_cast<int>(robot.point_loads.size())) {
         out_.robot = robot;
         out_.torque.resize(count_);
+        out_.slides.assign(count_, 0.0);
+        out_.limit.assign(count_, 0.0);
+        out_.twist.assign(count_, 0.0);
+        out_.pressing.assign(count_, 0.0);
+        out_.compliance.assign(count_ * count_, 0.0);
         for (size_t k = 0; k < count_; ++k) {
             const RubbingNode& node = nodes_[k];
             out_.torque[k] = node.torque;
@@ -91,8 +96,10 @@ class FrictionStepper {
         if (!march.run(out_.solution.free_end, mesh, reader) || reader.failed) return false;
         out_.twist = rubbing.twist;
         felt_ = rubbing.felt;
-        for (size_t k = 0; k < count_; ++k)
+        for (size_t k = 0; k < count_; ++k) {
             if (nodes_[k].outer < 0) out_.twist[k] += at.rotation[0] - march.base.psi[0];
+            else if (!felt_[k]) out_.twist[k] = march.base.psi[nodes_[k].inner] - march.base.psi[nodes_[k].outer];
+        }
         out_.pressing.assign(count_, 0.0);
         Pressing(nodes_, at_end_, robot, layout, reader).add_to(out_.pressing);
         out_.limit.resize(count_);

@@ -64,7 +64,7 @@ def test_a_cycle_takes_what_its_loop_encloses() -> None:
     heat = float(driven.tube_heat[cycle][1:, 1].sum())
     assert heat == pytest.approx(area, rel=1e-3)
     expected = 4.0 * TORQUE * (amplitude * LENGTH - TORQUE * LENGTH**3 / (3.0 * GJ))
-    assert heat == pytest.approx(expected, rel=1e-3)
+    assert heat == pytest.approx(expected, rel=1.0 / (4 * 8**2) * 1.05)  # the error of eight cells
     stored = [driven[k].energy for k in (2 + 2 * steps, -1)]
     assert stored[0] == pytest.approx(stored[1], abs=1e-4 * area)
 
@@ -167,7 +167,8 @@ def test_the_guide() -> None:
     lag = bound * behind / GJ
     angles = np.array([0.0, 0.5, 3.0, 1.5, 0.5]) * lag
     driven = turned(robot, angles, tolerance=1e-9)
-    psi = np.array([shape.tubes[0].psi[-1] for shape in driven])
+    x = np.array([shape.tip_orientation[:, 0] for shape in driven])
+    psi = np.arctan2(x[:, 1], x[:, 0])
     assert psi == pytest.approx(np.array([0.0, 0.0, 2.0, 2.0, 1.5]) * lag, abs=1e-3 * lag)
 
 

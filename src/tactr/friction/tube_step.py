@@ -124,6 +124,7 @@ def _contacts(
         first = here.stop
         slides, held = found["slides"][here], nodes[here, 8]
         keeps = (slides == 0.0) & (nodes[here, 6] == 0.0) & np.isfinite(held)  # no drift by rounding
+        keeps &= np.diag(found["compliance"])[here] != 0.0  # clamped: turns with its actuator
         contacts.append(
             TubeContact(
                 names[place.inner],

@@ -134,6 +134,8 @@ class Measure:
         self, prepared: _core.PreparedRobot, solution: _core.Solution, panels: Sequence[np.ndarray]
     ) -> list[Wrap]:
         """Friction angles of all channels."""
+        if not self._channels:
+            return []
         places = [
             np.concatenate([points(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)])
             + self._translation[c.tube]
