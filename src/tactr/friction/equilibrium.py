@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactr import _core
-from tactr.friction.chebyshev import FIT, ORDER, Curve, points, powers
+from tactr.friction.chebyshev import FIT, ORDER, Curve, all_points, points, powers
 from tactr.friction.project import Profile, project
 from tactr.friction.wrap import Channel, Measure, Wrap, blended
-from tactr.robot import TensionProfile
+from tactr.robot import Robot, TensionProfile
 from tactr.statics._complementary import complementary_tension
 from tactr.statics.assemble import _profile_rows, tables, tension_row
 from tactr.statics.parameters import WHOLE_NUMBERS
@@ -32,9 +32,11 @@ NEGLIGIBLE = 1e-13  # of a profile: coefficients left away
 
 @dataclass(frozen=True, eq=False)
 class Settled:
-    """One equilibrium with friction: core, the robot with its profiles; profiles by channel, None where slack;
-    wraps by channel; missed: rad, by how much wraps and profiles disagree; rounds: shapes solved; pulled: of
-    the tendons pulled by displacements, if there are any."""
+    """One equilibrium with friction.
+
+    core: the robot with its profiles; profiles by channel, None where slack; wraps by channel; missed: rad, by how much wraps and profiles disagree; rounds: shapes solved; pulled: of
+    the tendons pulled by displacements, if there are any.
+    """
 
     core: _core.PreparedRobot
     solution: _core.Solution
@@ -102,10 +104,7 @@ class _Rounds:
         self._tension, self._rotation, self._translation = arrays[0].copy(), arrays[1], arrays[2]
         prepared = owner._prepared
         self._measure = Measure(owner.channels, prepared._core, self._translation)
-        self._looks = [
-            np.concatenate([points(a, b)[::2] for a, b in zip(joints[:-1], joints[1:], strict=True)])
-            for joints in self._measure.joints
-        ]
+        self._looks = [all_points(joints)[::2] for joints in self._measure.joints]
         self._scale = max(float(self._tension.max(initial=0.0)), 1e-3)
 
     def run(self, near: Settled | None, solution: _core.Solution) -> Settled | None:
@@ -258,7 +257,7 @@ def _kernel_rows(profile: Profile, y0: float) -> list[list[float]]:
     return rows
 
 
-def _without_rates(robot) -> _core.PreparedRobot:
+def _without_rates(robot: Robot) -> _core.PreparedRobot:
     """The layout of the robot's tables with zeros for all numbers, as rates."""
     zeros = {}
     for name, table in tables(robot).items():
