@@ -10,7 +10,6 @@ from tactr.friction.play import passed_on
 from tactr.robot import Robot
 from tactr.statics.actuation import displacements, rotations, tensions, translations
 
-
 FIELDS = ("tension", "rotation", "translation", "displacement")
 
 

@@ -32,9 +32,23 @@ for _k in range(ORDER):
     POWERS[: len(_whole), _k] = _whole
 
 
+_DEGREES = np.arange(ORDER)
+
+
+def terms(x: np.ndarray) -> np.ndarray:
+    """Chebyshev's polynomials at x (...) in [-1, 1], (..., ORDER)."""
+    return np.cos(np.multiply.outer(np.arccos(np.minimum(np.maximum(x, -1.0), 1.0)), _DEGREES))
+
+
 def points(start: float, end: float) -> np.ndarray:
     """The points of the piece [start, end], (ORDER,)."""
     return 0.5 * (start + end) + 0.5 * (end - start) * POINTS
+
+
+def all_points(edges: np.ndarray) -> np.ndarray:
+    """The points of all pieces between edges (k + 1,), ascending, (k ORDER,)."""
+    start, end = edges[:-1, None], edges[1:, None]
+    return (0.5 * (start + end) + 0.5 * (end - start) * POINTS).ravel()
 
 
 def integrals(values: np.ndarray, start: float, end: float) -> np.ndarray:
@@ -67,8 +81,7 @@ class Curve:
     def on(self, k: int, sigma: np.ndarray | float) -> np.ndarray:
         """Values of piece k at sigma."""
         start, end = self.edges[k], self.edges[k + 1]
-        x = (2.0 * np.asarray(sigma) - (start + end)) / (end - start)
-        return chebyshev.chebval(x, self.coefficients[k])
+        return terms((2.0 * np.asarray(sigma) - (start + end)) / (end - start)) @ self.coefficients[k]
 
     def __call__(self, sigma: np.ndarray | float) -> np.ndarray:
         """Values at sigma, (n,); at an edge, of the distal piece."""
@@ -76,7 +89,7 @@ class Curve:
         index = np.clip(np.searchsorted(self.edges, sigma, side="right") - 1, 0, len(self.coefficients) - 1)
         start, end = self.edges[index], self.edges[index + 1]
         x = (2.0 * sigma - (start + end)) / (end - start)
-        return (chebyshev.chebvander(x, ORDER - 1) * self.coefficients[index]).sum(axis=1)
+        return (terms(x) * self.coefficients[index]).sum(axis=1)
 
     @staticmethod
     def through(edges: np.ndarray, values: np.ndarray) -> Curve:

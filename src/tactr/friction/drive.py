@@ -9,22 +9,25 @@ import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
+from tactr.friction.actuators import Actuators, Plays
 from tactr.friction.driven import Driven
 from tactr.friction.equilibrium import Equilibrium, Settled
-from tactr.friction.actuators import Actuators, Plays
+from tactr.friction.missed import history_missed
 from tactr.friction.project import Profile
 from tactr.friction.slip import heat
 from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
 from tactr.robot.friction import rubs
 from tactr.statics.path import Path, path_points
-from tactr.statics.pulls import Pulled
+from tactr.statics.pulls import Pulled, is_stable
 from tactr.statics.rest import pulls_from
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared
+from tactr.statics.stability import is_stable_at_tensions, stability_of
 
-LONGEST_TURN = 0.1  # rad at the free end, in one step
-SHORTEST_STEP = 1.0 / 256  # of the way between two points
+LONGEST_TURN = 0.3  # rad at the free end, in one step
+MOST_MISSED = 1e-4  # of log tension, of what smaller steps would have seen
+SHORTEST_STEP = 1.0 / 32  # of the way between two points
 
 
 def drive(
@@ -92,7 +95,9 @@ class _Driver:
             held[k] = self._near.held if good and self._near is not None else 0
             steps.append(max(count, 1))
             failed.append("" if good and shapes[-1].converged else self._why(shapes[-1]))
-        return Driven(tuple(shapes), tuple(states), tuple(failed), tuple(steps), heats, creeps, tube_heats, held)
+        return Driven(
+            tuple(shapes), tuple(states), tuple(failed), tuple(steps), heats, creeps, tube_heats, held
+        )
 
     def _rest(self) -> DriveState:
         robot = self._robot
@@ -148,7 +153,7 @@ class _Driver:
             near, at = self._near, self._at
             assert at is not None
             settled = self._settle(ahead, state, cold=False)
-            if settled is not None and self._turn(near, settled) > LONGEST_TURN and step > SHORTEST_STEP:
+            if settled is not None and step > SHORTEST_STEP and not self._is_fine(near, settled):
                 settled = None
             if settled is None:
                 if step > SHORTEST_STEP:
@@ -195,7 +200,9 @@ class _Driver:
             plain = self._plain(passed)
             if not plain.converged:
                 return None
-            return self._equilibrium.settle(old, arrays, pulls, None, plain._solution, stay=False, tubes=state.rubbing)
+            return self._equilibrium.settle(
+                old, arrays, pulls, None, plain._solution, stay=False, tubes=state.rubbing
+            )
         near = self._near
         assert near is not None
         return self._equilibrium.settle(
@@ -216,6 +223,30 @@ class _Driver:
 
     def _profiled(self) -> bool:
         return any(isinstance(t.tension, TensionProfile) for t in self._robot.tendons)
+
+    def _is_fine(self, a: Settled, b: Settled) -> bool:
+        """Whether the way from a to b is short enough for one step, and b as stable as a."""
+        if self._turn(a, b) > LONGEST_TURN or (not self._stable(b) and self._stable(a)):
+            return False
+        missed = [
+            history_missed(
+                a.wraps[k],
+                b.wraps[k],
+                (float(a.solution.tension[c.index]), float(b.solution.tension[c.index])),
+                (a.profiles[k], b.profiles[k]),
+            )
+            for k, c in enumerate(self._equilibrium.channels)
+        ]
+        return max(missed, default=0.0) <= MOST_MISSED
+
+    @staticmethod
+    def _stable(settled: Settled) -> bool:
+        if settled.pulled is not None:
+            return is_stable(settled.core, settled.pulled.pulls, settled.solution)
+        stable = is_stable_at_tensions(settled.core, settled.solution)
+        if stable or not settled.held:
+            return stable
+        return len(stability_of(settled.core, settled.solution).conjugate_points) <= settled.held
 
     def _turn(self, a: Settled, b: Settled) -> float:
         return _core.free_end_distance(self._prepared._core, a.solution, b.solution)

@@ -15,12 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactr import _core
-from tactr.friction.chebyshev import FIT, ORDER, Curve, points, powers
+from tactr.friction.chebyshev import FIT, ORDER, Curve, all_points, points, powers
 from tactr.friction.project import Profile, project
 from tactr.friction.tube_state import TubeFrictionState
 from tactr.friction.tube_step import TubeFrictionStep
 from tactr.friction.wrap import Channel, Measure, Wrap, blended
-from tactr.robot import TensionProfile
+from tactr.robot import Robot, TensionProfile
 from tactr.statics._complementary import complementary_tension
 from tactr.statics.assemble import _profile_rows, tables, tension_row
 from tactr.statics.parameters import WHOLE_NUMBERS
@@ -35,10 +35,13 @@ NEGLIGIBLE = 1e-13  # of a profile: coefficients left away
 
 @dataclass(frozen=True, eq=False)
 class Settled:
-    """One equilibrium with friction: core, the robot with its profiles; profiles by channel, None where slack;
+    """One equilibrium with friction.
+
+    core: the robot with its profiles and the torques between tubes; profiles by channel, None where slack;
     wraps by channel; missed: rad, by how much wraps and profiles disagree; rounds: shapes solved; pulled: of
-    the tendons pulled by displacements, if there are any; tubes: where they rub, None without;
-    held: in how many directions of falling energy they hold the robot."""
+    the tendons pulled by displacements, if there are any; tubes: where they rub, None without; held: in how
+    many directions of falling energy they hold the robot.
+    """
 
     core: _core.PreparedRobot
     solution: _core.Solution
@@ -112,10 +115,7 @@ class _Rounds:
         self._tension, self._rotation, self._translation = arrays[0].copy(), arrays[1], arrays[2]
         prepared = owner._prepared
         self._measure = Measure(owner.channels, prepared._core, self._translation)
-        self._looks = [
-            np.concatenate([points(a, b)[::2] for a, b in zip(joints[:-1], joints[1:], strict=True)])
-            for joints in self._measure.joints
-        ]
+        self._looks = [all_points(joints)[::2] for joints in self._measure.joints]
         self._scale = max(float(self._tension.max(initial=0.0)), 1e-3)
 
     def run(self, near: Settled | None, solution: _core.Solution) -> Settled | None:
@@ -143,7 +143,17 @@ class _Rounds:
             pulled, step = self._pull(core, solution, profiles, rounds, first)
             first = False
             if missed <= owner.angle_tolerance and (pulled is None or step is None):
-                return Settled(core, solution, tuple(profiles), tuple(wraps), missed, rounds, pulled, self._tubes, self._held)
+                return Settled(
+                    core,
+                    solution,
+                    tuple(profiles),
+                    tuple(wraps),
+                    missed,
+                    rounds,
+                    pulled,
+                    self._tubes,
+                    self._held,
+                )
             tension = self._tension if step is None else step
             x = np.concatenate([own, self._tension / self._scale])
             g = np.concatenate([new, tension / self._scale])
@@ -272,7 +282,7 @@ def _kernel_rows(profile: Profile, y0: float) -> list[list[float]]:
     return rows
 
 
-def _without_rates(robot) -> _core.PreparedRobot:
+def _without_rates(robot: Robot) -> _core.PreparedRobot:
     """The layout of the robot's tables with zeros for all numbers, as rates."""
     zeros = {}
     for name, table in tables(robot).items():

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tactr import _core
-from tactr.friction.chebyshev import FIT, INTEGRAL, ORDER, POINTS, SLOPE, merged, points
+from tactr.friction.chebyshev import FIT, INTEGRAL, ORDER, POINTS, SLOPE, all_points, merged, points
 from tactr.friction.equilibrium import Settled
 from tactr.friction.project import Profile
 from tactr.friction.wrap import Channel, inner
@@ -60,7 +60,7 @@ def _falls(profile: Profile | None, edges: np.ndarray) -> tuple[np.ndarray, np.n
     panels = len(edges) - 1
     if profile is None:
         return np.zeros((panels, ORDER)), np.zeros(panels)
-    pieces = [profile.log.piece(0.5 * (a + b)) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    pieces = [profile.log.piece(float(middle)) for middle in 0.5 * (edges[:-1] + edges[1:])]
     spans = list(zip(pieces, edges[:-1], edges[1:], strict=True))
     tension = np.array([np.exp(profile.log.on(k, points(a, b))) for k, a, b in spans])
     along = -(tension @ _SLOPE.T) * (2.0 / np.diff(edges))[:, None]
@@ -79,6 +79,5 @@ def _creep(profile: Profile | None, edges: np.ndarray, slip: np.ndarray) -> floa
 
 def _rates(channel: Channel, settled: Settled, translation: np.ndarray, edges: np.ndarray) -> np.ndarray:
     """Length of the tendon per length of its tube at the points of every panel, (k, ORDER)."""
-    sigma = np.concatenate([points(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)])
-    s = sigma + translation[channel.tube]
+    s = all_points(edges) + translation[channel.tube]
     return _core.sample(settled.core, settled.solution, s)["tendon"][channel.index][:, 4].reshape(-1, ORDER)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactr import _core
-from tactr.friction.chebyshev import FIT, ORDER, POINTS, SLOPE, Curve, integrals, merged, points
+from tactr.friction.chebyshev import FIT, ORDER, POINTS, SLOPE, Curve, all_points, integrals, merged, terms
 from tactr.robot import Robot, Tendon
 from tactr.robot.friction import friction_pieces, rubs
 from tactr.statics.assemble import tendon_end
@@ -25,10 +25,30 @@ _DERIVATIVE = np.polynomial.chebyshev.chebvander(POINTS, ORDER - 1) @ SLOPE @ FI
 @dataclass(frozen=True, eq=False)
 class Wrap:
     """Friction angle of one tendon from its proximal end on: rise, continuous along every piece, and jumps
-    (k + 1,) at its edges, which the rise leaves out; both at least 0, rad times the coefficient."""
+    (k + 1,) at its edges, which the rise leaves out; both at least 0, rad times the coefficient.
+
+    bend (k, ORDER, 3): Chebyshev coefficients of dt/ds times the coefficient, world axes, 1/m; kinks (k + 1,
+    3): change of direction at the edges, likewise.
+    """
 
     rise: Curve
     jumps: np.ndarray
+    bend: np.ndarray
+    kinks: np.ndarray
+
+    def bend_at(self, sigma: np.ndarray) -> np.ndarray:
+        """dt/ds times the coefficient at sigma (n,), (n, 3), 1/m."""
+        edges = self.rise.edges
+        index = np.clip(np.searchsorted(edges, sigma, side="right") - 1, 0, len(self.bend) - 1)
+        x = (2.0 * sigma - (edges[index] + edges[index + 1])) / (edges[index + 1] - edges[index])
+        return np.einsum("nb,nbc->nc", terms(x), self.bend[index])
+
+    def kinks_on(self, sigma: np.ndarray) -> np.ndarray:
+        """Kinks at the nearest of ascending sigma (n,), (n, 3)."""
+        found = np.zeros((len(sigma), 3))
+        for k in np.flatnonzero(self.jumps > 0.0):
+            found[np.argmin(np.abs(sigma - self.rise.edges[k]))] += self.kinks[k]
+        return found
 
     def total(self) -> float:
         """Up to the tendon's end."""
@@ -137,8 +157,7 @@ class Measure:
         if not self._channels:
             return []
         places = [
-            np.concatenate([points(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)])
-            + self._translation[c.tube]
+            all_points(edges) + self._translation[c.tube]
             for c, edges in zip(self._channels, panels, strict=True)
         ]
         every, back = np.unique(np.concatenate(places), return_inverse=True)
@@ -174,7 +193,10 @@ def _along(channel: Channel, edges: np.ndarray, t: np.ndarray, rate: np.ndarray)
     kink = _angles(before[:-1], after[1:])
     kink[kink < 1e-5] = 0.0  # the same direction on both sides but for the fit
     jumps = np.concatenate([[0.0], np.maximum(mu[:-1], mu[1:]) * kink, [0.0]])
-    return Wrap(Curve(edges, rows), jumps)
+    kinks = np.zeros((len(edges), 3))
+    kinks[1:-1] = np.maximum(mu[:-1], mu[1:])[:, None] * (after[1:] - before[:-1])
+    bend = np.einsum("ab,kbc->kac", FIT, slope) * mu[:, None, None]
+    return Wrap(Curve(edges, rows), jumps, bend, kinks)
 
 
 def _at_disks(channel: Channel, edges: np.ndarray, t: np.ndarray, rate: np.ndarray) -> Wrap:
@@ -186,12 +208,16 @@ def _at_disks(channel: Channel, edges: np.ndarray, t: np.ndarray, rate: np.ndarr
     first = np.einsum("b,bc->c", (-1.0) ** np.arange(ORDER), FIT @ t[0])
     incoming = np.vstack([first, direction[:-1]])
     turns = _angles(incoming, direction)
-    jumps = np.zeros(len(edges))
-    for place, turn in zip(spans[:-1], turns, strict=True):
+    jumps, kinks = np.zeros(len(edges)), np.zeros((len(edges), 3))
+    direction /= np.linalg.norm(direction, axis=1)[:, None]
+    incoming = np.vstack([first / np.linalg.norm(first), direction[:-1]])
+    for n, (place, turn) in enumerate(zip(spans[:-1], turns, strict=True)):
         if place > 0.0 or (len(contacts) and contacts[0] <= 1e-9):
             k = int(np.argmin(np.abs(edges - place)))
             jumps[k] += channel.coefficient(place) * turn
-    return Wrap(Curve(edges, np.zeros((len(edges) - 1, ORDER))), jumps)
+            kinks[k] += channel.coefficient(place) * (direction[n] - incoming[n])
+    panels = len(edges) - 1
+    return Wrap(Curve(edges, np.zeros((panels, ORDER))), jumps, np.zeros((panels, ORDER, 3)), kinks)
 
 
 _WEIGHTS = (
@@ -214,11 +240,13 @@ def blended(weights: Sequence[float], wraps: Sequence[Wrap]) -> Wrap:
     """A weighted sum, on the edges of the last."""
     last = wraps[-1]
     edges = last.rise.edges
-    values = sum(
-        w * wrap.rise(np.concatenate([points(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]))
-        for w, wrap in zip(weights, wraps, strict=True)
-    )
+    values = sum(w * wrap.rise(all_points(edges)) for w, wrap in zip(weights, wraps, strict=True))
     jumps = sum(
         w * np.array([wrap.jump_at(edge) for edge in edges]) for w, wrap in zip(weights, wraps, strict=True)
     )
-    return Wrap(Curve.through(edges, np.asarray(values).reshape(-1, ORDER)), np.maximum(jumps, 0.0))
+    return Wrap(
+        Curve.through(edges, np.asarray(values).reshape(-1, ORDER)),
+        np.maximum(jumps, 0.0),
+        last.bend,
+        last.kinks,
+    )
