@@ -116,6 +116,7 @@ class FrictionStepper {
         const int n = shooting.unknowns, inputs = n + static_cast<int>(count_);
         March<D, double> march(robot, layout, at, shooting.newton_options());
         shooting.scale(march);
+        march.solver.precision = Precision::rough;  // it only leads there
         RubbingNodes<D> rubbing(nodes_, first_load_, n - first);
         march.rubbing = &rubbing;
         FreeEnd<D> end;
