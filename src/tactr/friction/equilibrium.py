@@ -34,8 +34,9 @@ NEGLIGIBLE = 1e-13  # of a profile: coefficients left away
 class Settled:
     """One equilibrium with friction.
 
-    core: the robot with its profiles; profiles by channel, None where slack; wraps by channel; missed: rad, by how much wraps and profiles disagree; rounds: shapes solved; pulled: of
-    the tendons pulled by displacements, if there are any.
+    core: the robot with its profiles; profiles by channel, None where slack; wraps by channel; missed: rad,
+    by how much wraps and profiles disagree; rounds: shapes solved; pulled: of the tendons pulled by
+    displacements, if there are any.
     """
 
     core: _core.PreparedRobot

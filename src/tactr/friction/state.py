@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -27,13 +29,13 @@ class DriveState:
     given: Actuators | None
     passed: Actuators
 
-    def tension(self, tendon: str, sigma: float | np.ndarray) -> np.ndarray:
+    def tension(self, tendon: str, sigma: float | Sequence[float] | np.ndarray) -> np.ndarray:
         """Tension along a tendon with friction at sigma (n,), m; 0 where it is slack. N."""
         profile = self.profiles[self._index(tendon)]
         sigma = np.atleast_1d(np.asarray(sigma, dtype=float))
         return np.zeros(len(sigma)) if profile is None else profile.tension(sigma)
 
-    def stuck(self, tendon: str, sigma: float | np.ndarray) -> np.ndarray:
+    def stuck(self, tendon: str, sigma: float | Sequence[float] | np.ndarray) -> np.ndarray:
         """Whether the last step left the tendon where it was, at sigma (n,)."""
         profile = self.profiles[self._index(tendon)]
         sigma = np.atleast_1d(np.asarray(sigma, dtype=float))
@@ -52,7 +54,7 @@ class DriveState:
                 value=self,
             )
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         """Plain lists and numbers, for JSON: ``from_dict`` gives the state back."""
         return {
             "tendons": list(self.tendons),
@@ -63,7 +65,7 @@ class DriveState:
         }
 
     @staticmethod
-    def from_dict(data: dict) -> DriveState:
+    def from_dict(data: dict[str, Any]) -> DriveState:
         """The state that ``to_dict`` wrote. Raises RobotError."""
         try:
             return DriveState(
@@ -90,7 +92,7 @@ class DriveState:
         return self.tendons.index(tendon)
 
 
-def _plain(profile: Profile) -> dict:
+def _plain(profile: Profile) -> dict[str, Any]:
     return {
         "sigma": profile.log.edges.tolist(),
         "log_tension": profile.log.coefficients.tolist(),
@@ -99,7 +101,7 @@ def _plain(profile: Profile) -> dict:
     }
 
 
-def _profile(data: dict) -> Profile:
+def _profile(data: dict[str, Any]) -> Profile:
     curve = Curve(
         np.array(data["sigma"], dtype=float), np.array(data["log_tension"], dtype=float).reshape(-1, ORDER)
     )
