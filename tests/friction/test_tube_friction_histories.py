@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 
 import numpy as np
@@ -97,7 +98,7 @@ def test_the_result_does_not_depend_on_the_steps() -> None:
     for angles, most in (([0.0, 0.8], 1e-6), ([0.0, 0.8, -0.4, 0.5], 1e-5)):
         tips = []
         for pieces in (1, 2, 4, 8):
-            path = [np.linspace(a, b, pieces + 1)[1:] for a, b in zip(angles[:-1], angles[1:], strict=True)]
+            path = [np.linspace(a, b, pieces + 1)[1:] for a, b in itertools.pairwise(angles)]
             tips.append(turned(robot, np.concatenate([[0.0], *path])).tips[-1])
         assert np.linalg.norm(np.diff(tips, axis=0), axis=1).max() < most
 
@@ -138,7 +139,9 @@ def test_a_state_goes_through_json() -> None:
 def test_a_state_of_another_cut_is_refused() -> None:
     state = turned(pressed_rod(), np.array([0.0, FULL])).state
     contact = state.rubbing.contacts[0]
-    short = type(contact)("inner", "outer", *(getattr(contact, k)[:3] for k in ("s", "torque", "twist", "limit", "slides")))
+    short = type(contact)(
+        "inner", "outer", *(getattr(contact, k)[:3] for k in ("s", "torque", "twist", "limit", "slides"))
+    )
     other = type(state)(
         state.tendons,
         state.tubes,

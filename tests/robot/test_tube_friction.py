@@ -32,9 +32,7 @@ positive = st.floats(1e-6, 1e3)
 
 
 def _tube(friction: TubeFriction | float | None) -> Tube:
-    return Tube(
-        "a", length=0.1, section=Annulus(1e-3, 5e-4), material=materials.nitinol, friction=friction
-    )
+    return Tube("a", length=0.1, section=Annulus(1e-3, 5e-4), material=materials.nitinol, friction=friction)
 
 
 def test_a_file_gives_it():

@@ -85,8 +85,9 @@ class Equilibrium:
         stay: bool,
         tubes: TubeFrictionState | None = None,
     ) -> Settled | None:
-        """From profiles before, log tension by channel, and where tubes rubbed, at tension, rotation, translation (arrays) and
-        displacements, near what was found before, or from a shape without friction. None: not found."""
+        """From profiles before, log tension by channel, and where tubes rubbed, at tension,
+        rotation, translation (arrays) and displacements, near what was found before, or from a shape without
+        friction. None: not found."""
         rounds = _Rounds(self, old, arrays, pulls, stay, tubes)
         return rounds.run(near, solution)
 

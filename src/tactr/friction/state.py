@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +21,8 @@ class DriveState:
     """Tensions along the tendons, torques between tubes, and where backlash has left the actuators.
 
     names of tendons and tubes in the robot's order; profiles: by tendon, None where it has no tension or no
-    friction; rubbing: torques and angles where tubes rub, None without or at rest; given: what the actuators were given last, None at rest; passed: what their plays pass on.
+    friction; given: what the actuators were given last, None at rest; passed: what their plays pass on;
+    rubbing: torques and angles where tubes rub, None without or at rest.
     """
 
     tendons: tuple[str, ...]
@@ -29,13 +32,13 @@ class DriveState:
     passed: Actuators
     rubbing: TubeFrictionState | None = None
 
-    def tension(self, tendon: str, sigma: float | np.ndarray) -> np.ndarray:
+    def tension(self, tendon: str, sigma: float | Sequence[float] | np.ndarray) -> np.ndarray:
         """Tension along a tendon with friction at sigma (n,), m; 0 where it is slack. N."""
         profile = self.profiles[self._index(tendon)]
         sigma = np.atleast_1d(np.asarray(sigma, dtype=float))
         return np.zeros(len(sigma)) if profile is None else profile.tension(sigma)
 
-    def stuck(self, tendon: str, sigma: float | np.ndarray) -> np.ndarray:
+    def stuck(self, tendon: str, sigma: float | Sequence[float] | np.ndarray) -> np.ndarray:
         """Whether the last step left the tendon where it was, at sigma (n,)."""
         profile = self.profiles[self._index(tendon)]
         sigma = np.atleast_1d(np.asarray(sigma, dtype=float))
@@ -54,7 +57,7 @@ class DriveState:
                 value=self,
             )
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         """Plain lists and numbers, for JSON: ``from_dict`` gives the state back."""
         return {
             "tendons": list(self.tendons),
@@ -66,7 +69,7 @@ class DriveState:
         }
 
     @staticmethod
-    def from_dict(data: dict) -> DriveState:
+    def from_dict(data: dict[str, Any]) -> DriveState:
         """The state that ``to_dict`` wrote. Raises RobotError."""
         try:
             return DriveState(
@@ -94,7 +97,7 @@ class DriveState:
         return self.tendons.index(tendon)
 
 
-def _plain(profile: Profile) -> dict:
+def _plain(profile: Profile) -> dict[str, Any]:
     return {
         "sigma": profile.log.edges.tolist(),
         "log_tension": profile.log.coefficients.tolist(),
@@ -103,7 +106,7 @@ def _plain(profile: Profile) -> dict:
     }
 
 
-def _profile(data: dict) -> Profile:
+def _profile(data: dict[str, Any]) -> Profile:
     curve = Curve(
         np.array(data["sigma"], dtype=float), np.array(data["log_tension"], dtype=float).reshape(-1, ORDER)
     )

@@ -47,8 +47,8 @@ class TubeFrictionState:
         return next(contact for contact in self.contacts if contact.inner == inner)
 
     def heat_from(self, before: TubeFrictionState | None, tubes: Sequence[str]) -> np.ndarray:
-        """What friction took since a state before, by inner tube, (tubes,), J: torque times slip, with the mean
-        torque where a place slid on, otherwise that after: it turns round before there is slip."""
+        """What friction took since a state before, by inner tube, (tubes,), J: torque times slip, with the
+        mean torque where a place slid on, otherwise that after: it turns round before there is slip."""
         heat = np.zeros(len(tubes))
         for contact in self.contacts:
             old = None if before is None else before._same(contact)

@@ -236,7 +236,7 @@ def _angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.einsum("kc,kc->k", a, b))
 
 
-def blended(weights: Sequence[float], wraps: Sequence[Wrap]) -> Wrap:
+def blended(weights: Sequence[float] | np.ndarray, wraps: Sequence[Wrap]) -> Wrap:
     """A weighted sum, on the edges of the last."""
     last = wraps[-1]
     edges = last.rise.edges

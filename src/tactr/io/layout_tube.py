@@ -203,7 +203,7 @@ TUBE_FRICTION = Either(
             "radius": Field(LENGTH, "of the contact; default half the tube's outer diameter"),
             "lever": Field(
                 LENGTH,
-                "over which a concentrated contact moment is borne by two forces; default two outer diameters",
+                "over which a concentrated contact moment is borne by two forces; default two diameters",
             ),
         },
     ),
