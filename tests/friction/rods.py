@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from tactr import DistributedLoad, Robot, Tube, TubeFriction
-from tactr.friction.tube_state import TubeFrictionState
+from tactr.friction.tube_state import TubeContact, TubeFrictionState
 from tactr.friction.tube_step import Rubbed, TubeFrictionStep
 from tactr.robot import Stiffness
+from tactr.robot.robot import Numbers
 from tactr.statics.solve import Prepared
 
 LENGTH, GJ, EI = 0.12, 8e-3, 1e-2
@@ -42,18 +43,26 @@ class Driven:
         self.state: TubeFrictionState | None = None
         self.last: Rubbed | None = None
 
-    def to(self, **actuation: object) -> Rubbed:
-        actuated = self.prepared._actuated(
-            *(actuation.get(kind) for kind in ("tension", "rotation", "translation"))
-        )
+    def to(self, rotation: Numbers) -> Rubbed:
+        actuated = self.prepared._actuated(None, rotation, None)
+        assert not isinstance(actuated, Prepared)
         guess = None if self.last is None else self.last.solution
         self.last = self.step(self.prepared._core, actuated.arrays, self.state, guess=guess)
         assert self.last.settled
         self.state = self.last.state
         return self.last
 
-    def tip_angle(self, tube: int = 1) -> float:
-        return float(self.last.solution.free_end_psi[tube] - self.last.solution.free_end_psi[0])
+    @property
+    def contact(self) -> TubeContact:
+        """Of the inner tube."""
+        assert self.state is not None
+        return self.state.contact("inner")
+
+    def tip_angle(self) -> float:
+        """Of the inner tube in the outer one."""
+        assert self.last is not None
+        psi = self.last.solution.free_end_psi
+        return float(psi[1] - psi[0])
 
     def turn(self, angles: np.ndarray) -> np.ndarray:
         """Angle of the inner tube's tip at each base angle."""

@@ -3,6 +3,8 @@ contact where a straight tube leaves a curved one."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -15,15 +17,15 @@ from .rods import COEFFICIENT, EI, FULL, GJ, LENGTH, PRESS, RADIUS, TORQUE, Driv
 
 def torque_at_base(driven: Driven) -> float:
     """What turns the inner tube at its base: the sum of what holds it further out."""
-    contact = driven.state.contacts[0]
+    contact = driven.contact
     return -float(contact.torque.sum())
 
 
 def test_rest_takes_no_torque() -> None:
     driven = Driven(pressed_rod())
     driven.to(rotation=[0.0, 0.0])
-    assert not driven.state.contacts[0].torque.any()
-    assert driven.state.contacts[0].limit[1:-1].sum() == pytest.approx(TORQUE * LENGTH, rel=1e-5)
+    assert not driven.contact.torque.any()
+    assert driven.contact.limit[1:-1].sum() == pytest.approx(TORQUE * LENGTH, rel=1e-5)
 
 
 @pytest.mark.parametrize("share", [0.05, 0.2, 0.5, 0.9])
@@ -33,7 +35,7 @@ def test_front_of_a_first_turn(share: float) -> None:
     driven = Driven(pressed_rod(), cells=cells)
     driven.to(rotation=[0.0, 0.0])
     driven.to(rotation={"inner": share * FULL})
-    contact = driven.state.contacts[0]
+    contact = driven.contact
     front = np.sqrt(2.0 * GJ * share * FULL / TORQUE)
     expected = TORQUE * np.clip(front - contact.s, 0.0, None) ** 2 / (2.0 * GJ)
     assert contact.twist == pytest.approx(expected, abs=FULL / (4.0 * cells**2) * 1.01)
@@ -80,12 +82,12 @@ def test_second_front_after_a_reversal() -> None:
     cells = 32
     driven = Driven(pressed_rod(), cells=cells)
     driven.turn(np.array([0.0, 0.9, 0.5]) * FULL)
-    s = driven.state.contacts[0].s
+    s = driven.contact.s
     first = np.sqrt(2.0 * GJ * 0.9 * FULL / TORQUE)
     second = np.sqrt(GJ * 0.4 * FULL / TORQUE)
     expected = TORQUE / (2.0 * GJ) * np.clip(first - s, 0.0, None) ** 2
     expected -= TORQUE / GJ * np.clip(second - s, 0.0, None) ** 2
-    assert driven.state.contacts[0].twist == pytest.approx(expected, abs=2.0 * FULL / (4.0 * cells**2))
+    assert driven.contact.twist == pytest.approx(expected, abs=2.0 * FULL / (4.0 * cells**2))
 
 
 def test_friction_resists() -> None:
@@ -93,7 +95,7 @@ def test_friction_resists() -> None:
     for sign in (1.0, -1.0):
         driven = Driven(pressed_rod())
         tips = driven.turn(sign * np.array([0.0, 2.0]) * FULL)
-        contact = driven.state.contacts[0]
+        contact = driven.contact
         assert sign * tips[1] == pytest.approx(FULL, rel=1e-5)
         assert (sign * contact.torque[1:-1] < 0.0).all() and (sign * contact.slides[1:-1] > 0.0).all()
 
@@ -110,7 +112,7 @@ def test_contact_force_of_a_tube_that_bears_its_share() -> None:
     )
     driven = Driven(robot.replace(tubes=tubes))
     driven.to(rotation=[0.0, 0.0])
-    limit = driven.state.contacts[0].limit
+    limit = driven.contact.limit
     even = COEFFICIENT * RADIUS * 0.75 * PRESS * LENGTH / 8
     assert limit[1:-1] == pytest.approx(even, rel=1e-4)
     assert len(limit) == 10
@@ -138,8 +140,8 @@ def test_straight_tube_in_a_curved_one() -> None:
     bound = COEFFICIENT * RADIUS * 2.0 * EI * kappa / lever
     lag = bound * LENGTH * (1.0 / GJ + 1.0 / (3.0 * GJ))
     tips = driven.turn(np.array([0.0, 0.5, 2.0, 0.5, -1.0]) * lag)
-    assert driven.state.contacts[0].limit[-1] == pytest.approx(bound, rel=2e-3)
-    assert driven.state.contacts[0].limit[1:-1].max() < 0.02 * bound
+    assert driven.contact.limit[-1] == pytest.approx(bound, rel=2e-3)
+    assert driven.contact.limit[1:-1].max() < 0.02 * bound
     assert tips == pytest.approx(np.array([0.0, 0.0, 1.0, 1.0, 0.0]) * lag, abs=0.03 * lag)
 
 
@@ -155,20 +157,21 @@ def test_contact_force_of_two_curved_tubes() -> None:
     driven.to(rotation=[0.0, turned])
 
     # GJ theta'' = EI kappa^2 sin(theta), theta(0) = turned, theta'(L) = 0
-    def pendulum(end: float) -> object:
+    def pendulum(end: float) -> Any:
         def rate(_s: float, y: np.ndarray) -> list[float]:
             return [y[1], EI / GJ * kappa**2 * np.sin(y[0])]
 
         return solve_ivp(rate, (LENGTH, 0.0), [end, 0.0], rtol=1e-11, atol=1e-13, dense_output=True).sol
 
-    theta = pendulum(brentq(lambda end: pendulum(end)(0.0)[0] - turned, 0.01, turned, xtol=1e-13))
+    end = brentq(lambda end: pendulum(end)(0.0)[0] - turned, 0.01, turned, xtol=1e-13)
+    theta = pendulum(float(end))  # type: ignore[arg-type]
     s = np.linspace(0.0, LENGTH, 20001)
     angle, slope = theta(s)
     force = 0.5 * (EI + GJ) * kappa * np.cos(0.5 * angle) * slope
     press = np.abs(np.gradient(force, s))
     cell = np.minimum((s * cells / LENGTH).astype(int), cells - 1)
     expected = np.array([np.trapezoid(press[cell == k], s[cell == k]) for k in range(cells)])
-    limit = driven.state.contacts[0].limit / (1e-9 * RADIUS)
+    limit = driven.contact.limit / (1e-9 * RADIUS)
     assert limit[1:-1] == pytest.approx(expected, rel=0.02, abs=0.02 * expected.max())
     assert limit[0] == pytest.approx(abs(force[0]), rel=1e-3)
     assert limit[-1] == pytest.approx(0.0, abs=1e-3 * limit[0])
