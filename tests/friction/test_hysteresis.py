@@ -172,3 +172,19 @@ def test_wrong_input_is_named():
         tactr.drive(robot, {"displacement": [[1e-3]]}, state=state)
     with pytest.raises(tactr.RobotError, match="cannot be read"):
         DriveState.from_dict({})
+
+
+def test_a_tendon_dragged_by_another_is_told():
+    """Held at a tension while the other bends the tube: its profile stays, creep is how far it slipped."""
+    robot = bending(both=True)
+    driven = tactr.drive(robot, {"tension": [[1.0, 1.0], [4.0, 1.0]]})
+    lengths = driven.lengths[1] - driven.lengths[0]
+    assert driven.creep[1, 0] < 1e-9
+    assert driven.creep[1, 1] == pytest.approx(lengths[1], rel=0.05)
+
+
+def test_a_driven_shape_has_no_plain_sensitivity():
+    (shape,) = tactr.drive(bending(), pulled([3.0]))
+    assert "without" not in shape.message
+    with pytest.raises(tactr.RobotError, match="drive"):
+        shape.sensitivity(["tendons.up.friction"])

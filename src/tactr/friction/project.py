@@ -98,6 +98,10 @@ class _Walk:
                 place = self._stay(place, b, kept, rise)
             else:
                 place = self._slide(place, b, -1 if difference > 0.0 else 1, kept, rise)
+        if place < b:  # so many turns within one cell are noise
+            self._driven, self._y = False, float(kept(place))
+            self._begin(place, 0)
+            self._y = float(kept(b))
 
     def _slide(self, a, b, way, kept, rise) -> float:
         self._begin(a, way)
