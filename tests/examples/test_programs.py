@@ -46,6 +46,16 @@ def test_hysteresis(capsys):
     assert result["held"] == pytest.approx(held[[0, 1000, 2000]], rel=1e-6)
 
 
+def test_tube_friction():
+    """Lag of a straight tube in a curved one: at the end its moment M = EI kappa is borne by forces M / lever,
+    with the lever of four radii that is a torque of mu M / 2, which winds up both tubes."""
+    result = runpy.run_path(str(ROOT / "examples" / "tube_friction.py"))
+    outer, inner = (tube.stiffness for tube in result["robot"].tubes)
+    moment = inner.EI_x * 8.0 * outer.EI_x / (outer.EI_x + inner.EI_x)
+    lag = 0.5 * 0.15 * moment * 0.15 * (1.0 / inner.GJ + 1.0 / outer.GJ)
+    assert [result["lag"], result["back"]] == pytest.approx([lag, lag], rel=0.05)
+
+
 def test_the_python_of_the_readme(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     code, questions = blocks("python")

@@ -58,7 +58,7 @@ def test_places_that_hold_keep_an_unstable_shape() -> None:
 
 
 def test_tubes_and_tendons_rub_in_one_robot() -> None:
-    """Three tubes, one with a tendon that rubs: both take energy, and the way back differs from the way out."""
+    """Three tubes, one with a tendon that rubs: both take energy, and the way back is another."""
     tubes = [
         Tube(
             name,

@@ -48,7 +48,7 @@ def drive(
     What friction and backlash leave behind comes back in the result's states: nothing is hidden in the
     robot. tolerance, stations: as in ``solve``. Every way between two points is cut into steps in which the
     free end turns by less than 0.1 rad. A result always comes back: look at ``converged``. Model and
-    assumptions: docs/friction.md. Raises RobotError.
+    assumptions: docs/friction.md, docs/tube_friction.md. Raises RobotError.
     """
     points = path_points(robot, path)
     _check(points[0])
