@@ -47,8 +47,8 @@ def test_hysteresis(capsys):
 
 
 def test_tube_friction():
-    """Lag of a straight tube in a curved one: at the end its moment M = EI kappa is borne by forces M / lever,
-    with the lever of four radii that is a torque of mu M / 2, which winds up both tubes."""
+    """Lag of a straight tube in a curved one: at the end its moment M = EI kappa is borne by forces
+    M / lever, with that of four radii a torque of mu M / 2, which winds up both tubes."""
     result = runpy.run_path(str(ROOT / "examples" / "tube_friction.py"))
     outer, inner = (tube.stiffness for tube in result["robot"].tubes)
     moment = inner.EI_x * 8.0 * outer.EI_x / (outer.EI_x + inner.EI_x)

@@ -78,4 +78,5 @@ def test_tubes_and_tendons_rub_in_one_robot() -> None:
     assert driven.converged, driven.message
     assert (driven.tube_heat[1:, 1:].sum(axis=0) > 0.0).all() and driven.heat[1:].sum() > 0.0
     assert np.linalg.norm(driven.tips[3] - driven.tips[1]) > 1e-4
+    assert driven.state.rubbing is not None
     assert {contact.outer for contact in driven.state.rubbing.contacts} == {None, "outer", "middle"}
