@@ -17,6 +17,7 @@
 #include "sensitivity.hpp"
 #include "solve.hpp"
 #include "starts.hpp"
+#include "tube_friction.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -27,6 +28,18 @@ using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::c
 using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 using PreparedRobot = tactr::RobotTables<double>;
+
+template <size_t N>
+auto array_of(std::vector<double>&& data, const size_t (&shape)[N]) {
+    auto* owned = new std::vector<double>(std::move(data));
+    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+    return nb::ndarray<nb::numpy, double>(owned->data(), N, shape, owner);
+}
+
+nb::object vector_of(const double* data, size_t count) {
+    const size_t shape[1] = {count};
+    return nb::cast(array_of(std::vector<double>(data, data + count), shape));
+}
 
 void check_columns(const Table& table, size_t columns, const char* name) {
     if (table.shape(1) != columns)
@@ -77,9 +90,24 @@ void read_routing(PreparedRobot& robot, const Table& routing) {
     }
 }
 
+void read_profiles(PreparedRobot& robot, const Table& profiles) {
+    constexpr size_t N = tactr::MAX_TENSION_COEFFICIENTS;
+    check_columns(profiles, 2 + N, "profiles");
+    for (size_t k = 0; k < profiles.shape(0); ++k) {
+        tactr::TensionPiece piece{profiles(k, 0), static_cast<int>(profiles(k, 1)), {}};
+        if (piece.count < 1 || piece.count > static_cast<int>(N)) throw std::invalid_argument("tension pieces have 1 to 12 coefficients");
+        for (size_t c = 0; c < N; ++c) piece.c[c] = profiles(k, 2 + c);
+        robot.profiles.push_back(piece);
+    }
+}
+
+std::vector<double> copied(const Vector& v, size_t expected, const char* name) {
+    if (v.shape(0) != expected) throw std::invalid_argument(std::string(name) + " has the wrong length");
+    return std::vector<double>(v.data(), v.data() + expected);
+}
+
 void read_tendons(PreparedRobot& robot, const Table& tendons, const Table& profiles) {
     check_columns(tendons, 5, "tendons");  // tube, outermost, end, number of routing pieces, of tension pieces
-    check_columns(profiles, 6, "profiles");
     int routing = 0, profile = 0;
     for (size_t j = 0; j < tendons.shape(0); ++j) {
         const int tube = static_cast<int>(tendons(j, 0));
@@ -91,9 +119,31 @@ void read_tendons(PreparedRobot& robot, const Table& tendons, const Table& profi
     }
     if (static_cast<size_t>(routing) != robot.routing.size()) throw std::invalid_argument("routing does not match tendons");
     if (static_cast<size_t>(profile) != profiles.shape(0)) throw std::invalid_argument("profiles do not match tendons");
-    for (size_t k = 0; k < profiles.shape(0); ++k)
-        robot.profiles.push_back({profiles(k, 0), static_cast<int>(profiles(k, 1)),
-                                  {profiles(k, 2), profiles(k, 3), profiles(k, 4), profiles(k, 5)}});
+    read_profiles(robot, profiles);
+}
+
+/// The same robot, its tendons with other tension profiles, counts[j] pieces for tendon j.
+PreparedRobot with_profiles(const PreparedRobot& robot, const std::vector<int>& counts, const Table& profiles) {
+    if (counts.size() != robot.tendons.size()) throw std::invalid_argument("one number of tension pieces for each tendon");
+    PreparedRobot other = robot;
+    other.profiles.clear();
+    int first = 0;
+    for (size_t j = 0; j < counts.size(); ++j) {
+        other.tendons[j].profile_begin = first;
+        other.tendons[j].profile_end = first += counts[j];
+    }
+    if (static_cast<size_t>(first) != profiles.shape(0)) throw std::invalid_argument("profiles do not match tendons");
+    read_profiles(other, profiles);
+    return other;
+}
+
+/// Ends of the sections, from base to tip, m from the guide's exit.
+nb::object section_ends(const PreparedRobot& robot, const Vector& translation) {
+    const std::vector<double> places = copied(translation, robot.tubes.size(), "translation");
+    const auto layout = tactr::cut_into_sections(robot.view(), places.data());
+    std::vector<double> ends{layout.sections.front().proximal};
+    for (const auto& section : layout.sections) ends.push_back(section.distal);
+    return vector_of(ends.data(), ends.size());
 }
 
 void read_loads(PreparedRobot& robot, const Table& points, const Table& distributed) {
@@ -119,11 +169,6 @@ void read_loads(PreparedRobot& robot, const Table& points, const Table& distribu
         }
         robot.distributed_loads.push_back(load);
     }
-}
-
-std::vector<double> copied(const Vector& v, size_t expected, const char* name) {
-    if (v.shape(0) != expected) throw std::invalid_argument(std::string(name) + " has the wrong length");
-    return std::vector<double>(v.data(), v.data() + expected);
 }
 
 tactr::Solution blank(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation) {
@@ -160,13 +205,6 @@ std::vector<tactr::Solution> branches(const PreparedRobot& robot, const Vector& 
     settings.tolerance = tolerance;
     settings.residual_tolerance = residual_tolerance;
     return tactr::branches(view, actuation, settings, samples, empty);
-}
-
-template <size_t N>
-auto array_of(std::vector<double>&& data, const size_t (&shape)[N]) {
-    auto* owned = new std::vector<double>(std::move(data));
-    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-    return nb::ndarray<nb::numpy, double>(owned->data(), N, shape, owner);
 }
 
 using Getter = const double* (*)(const tactr::StationRecord&, int);
@@ -207,18 +245,14 @@ nb::dict sample(const PreparedRobot& robot, const tactr::Solution& solution, con
     for (int j = 0; j < samples.tendons; ++j)
         for (size_t k = 0; k < s.size(); ++k) {
             const auto& record = samples.tendon[k * samples.tendons + j];
-            tendon.insert(tendon.end(), {static_cast<double>(record.host), record.r[0], record.r[1], record.tension});
+            tendon.insert(tendon.end(), {static_cast<double>(record.host), record.r[0], record.r[1], record.tension, record.rate});
+            tendon.insert(tendon.end(), record.direction, record.direction + 3);
         }
     const size_t tube_shape[2] = {static_cast<size_t>(samples.tubes), s.size()};
-    const size_t tendon_shape[3] = {static_cast<size_t>(samples.tendons), s.size(), 4};
+    const size_t tendon_shape[3] = {static_cast<size_t>(samples.tendons), s.size(), 8};
     out["present"] = nb::cast(array_of(std::move(present), tube_shape));
     out["tendon"] = nb::cast(array_of(std::move(tendon), tendon_shape));
     return out;
-}
-
-nb::object vector_of(const double* data, size_t count) {
-    const size_t shape[1] = {count};
-    return nb::cast(array_of(std::vector<double>(data, data + count), shape));
 }
 
 /// (rows, columns) as tactr::Sensitivities has them.
@@ -336,6 +370,45 @@ nb::tuple stability(const PreparedRobot& robot, const tactr::Solution& solution,
     return nb::make_tuple(report.stable, report.margin, array(report.s), array(report.determinant), array(report.conjugate));
 }
 
+/// nodes: a row for each: inner, outer (-1: the guide), s, arm, lever, radius, slide, torque, twist, whether it is at an end.
+nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
+                       double tolerance, double residual_tolerance, const Table& nodes, const tactr::Solution* guess, bool stay) {
+    check_columns(nodes, 10, "nodes");
+    std::vector<tactr::RubbingNode> list;
+    std::vector<char> at_end;
+    const auto is_tube = [&](double i) { return i >= 0.0 && i < static_cast<double>(robot.tubes.size()); };
+    for (size_t k = 0; k < nodes.shape(0); ++k) {
+        const double* row = &nodes(k, 0);
+        if (!is_tube(row[0]) || !(row[1] == -1.0 || is_tube(row[1]))) throw std::invalid_argument("node on no tube");
+        list.push_back({static_cast<int>(row[0]), static_cast<int>(row[1]), row[2], row[3], row[4], row[5], row[6], row[7], row[8]});
+        at_end.push_back(row[9] != 0.0);
+    }
+    const tactr::Solution empty = blank(robot, tension, rotation, translation);
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    settings.stay = stay;
+    auto found = std::make_unique<tactr::FrictionStep>();
+    {
+        nb::gil_scoped_release release;
+        tactr::friction_step(robot, list, at_end, settings, empty, guess, *found);
+    }
+    nb::dict out;
+    out["torque"] = vector_of(found->torque.data(), found->torque.size());
+    out["twist"] = vector_of(found->twist.data(), found->twist.size());
+    out["limit"] = vector_of(found->limit.data(), found->limit.size());
+    out["pressing"] = vector_of(found->pressing.data(), found->pressing.size());
+    out["slides"] = vector_of(found->slides.data(), found->slides.size());
+    const size_t square[2] = {list.size(), found->compliance.size() / (list.empty() ? 1 : list.size())};
+    out["compliance"] = nb::cast(array_of(std::move(found->compliance), square));
+    out["iterations"] = found->iterations;
+    out["missing"] = found->missing;
+    out["settled"] = found->settled;
+    out["robot"] = nb::cast(std::move(found->robot));
+    out["solution"] = nb::cast(std::move(found->solution));
+    return out;
+}
+
 double free_end_distance(const PreparedRobot& robot, const tactr::Solution& a, const tactr::Solution& b) {
     return tactr::free_end_distance(robot.view(), a, b);
 }
@@ -357,7 +430,9 @@ NB_MODULE(_core, m) {
                  read_loads(*robot, point_loads, distributed_loads);
                  new (self) PreparedRobot(std::move(*robot));
              },
-             "tubes"_a, "pieces"_a, "tendons"_a, "routing"_a, "profiles"_a, "point_loads"_a, "distributed_loads"_a);
+             "tubes"_a, "pieces"_a, "tendons"_a, "routing"_a, "profiles"_a, "point_loads"_a, "distributed_loads"_a)
+        .def("with_profiles", &with_profiles, "counts"_a, "profiles"_a, "The same robot with other tension profiles.")
+        .def("section_ends", &section_ends, "translation"_a, "Ends of the sections from base to tip, m from the guide's exit.");
 
     nb::class_<tactr::Solution>(m, "Solution", "What a solve found.")
         .def_prop_ro("status", [](const tactr::Solution& s) { return static_cast<int>(s.status); })
@@ -397,6 +472,9 @@ NB_MODULE(_core, m) {
     m.def("length_jacobian", &length_jacobian, "robot"_a, "solution"_a, "d(tendon lengths)/d(tensions).");
     m.def("joint_march", &joint_march, "robot"_a, "neighbour"_a, "step"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a,
           "One march from a moved free end: a solution to go on from, missed, d(missed, lengths)/d(free end, tensions); or None.");
+    m.def("friction_step", &friction_step, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a,
+          "residual_tolerance"_a, "nodes"_a, "guess"_a = nb::none(), "stay"_a = false,
+          "One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the nodes.");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
     m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");

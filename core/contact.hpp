@@ -73,6 +73,27 @@ class ContactReader {
         return true;
     }
 
+    /// From packed states in section k at s, as a march with its frame carries them, and the strains there; axes: R_b.
+    bool read_states(int k, double s, const double* z, Strains e, const double* axes, ContactRecord& out) {
+        const Section<double>& section = layout_.sections[k];
+        march_.packing.set(section.active, section.active_count, false, march_.options);
+        double rate[STATES];
+        if (!march_.derivative(section, s, z, rate, e)) return false;
+        D seeded[STATES], place(s);
+        place.d[0] = 1.0;
+        for (int n = 0; n < march_.packing.count; ++n) {
+            seeded[n] = D(z[n]);
+            seeded[n].d[0] = rate[n];
+        }
+        if (!dual_.solve(dual_layout_.sections[k], place, seeded, march_.packing, e)) return false;
+        Wrench exerted[MAX_TUBES];
+        for (int a = 0; a < section.active_count; ++a) exerted[a] = open_balance(a, z);
+        add_loads(section, z, exerted);
+        out.s = s;
+        sum_from_inside(section, exerted, axes, out);
+        return true;
+    }
+
   private:
     using D = Dual<1>;
     const Robot& robot_;
@@ -99,23 +120,10 @@ class ContactReader {
         const int k = section_at(s);
         const Section<double>& section = layout_.sections[k];
         march_.packing.set(section.active, section.active_count, false, march_.options);
-        double z[STATES], rate[STATES];
-        Strains e = strains_of(section, station);
+        double z[STATES];
+        const Strains e = strains_of(section, station);
         resultants_at(section, s, station, e, z);
-        if (!march_.derivative(section, s, z, rate, e)) return false;
-        D seeded[STATES], place(s);
-        place.d[0] = 1.0;
-        for (int n = 0; n < march_.packing.count; ++n) {
-            seeded[n] = D(z[n]);
-            seeded[n].d[0] = rate[n];
-        }
-        if (!dual_.solve(dual_layout_.sections[k], place, seeded, march_.packing, e)) return false;
-        Wrench exerted[MAX_TUBES];
-        for (int a = 0; a < section.active_count; ++a) exerted[a] = open_balance(a, z);
-        add_loads(section, z, exerted);
-        out.s = s;
-        sum_from_inside(section, exerted, station.quaternion, out);
-        return true;
+        return read_states(k, s, z, e, station.quaternion, out);
     }
 
     static Strains strains_of(const Section<double>& section, const StationRecord& station) {

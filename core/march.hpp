@@ -11,6 +11,7 @@
 #include "host_changes.hpp"
 #include "robot.hpp"
 #include "rotations.hpp"
+#include "rubbing_nodes.hpp"
 #include "section_solver.hpp"
 #include "sections.hpp"
 #include "stage_sums.hpp"
@@ -54,6 +55,7 @@ class March {
     double adapt_tolerance = 0.0;          // > 0: more steps in a section until its error is below
     int probe_section = -1, probe_lane = 0;  // lanes from probe_lane: a unit wrench in world axes at that section's end
     bool lengths_move = false;             // the tendons' lengths with their derivatives too
+    RubbingNodes<T>* rubbing = nullptr;    // reads the angles where friction torques act
     int slope_lanes = 0;                   // > 0: lanes 0.. are the unknowns, keep the strains' slopes in the mesh
 
     // Results
@@ -208,6 +210,7 @@ class March {
             }
             y[N3 + load.tube] += force[2];
             y[M3 + load.tube] += moment[2];
+            if (rubbing) rubbing->visit(layout.point_loads[p].load, y);
         }
     }
 

@@ -8,6 +8,7 @@ constexpr int MAX_TUBES = 8;
 constexpr int MAX_COEFFICIENTS = 16;
 
 constexpr int MAX_TUBE_COEFFICIENTS = 8;
+constexpr int MAX_TENSION_COEFFICIENTS = 12;
 
 /// What describes a tube at one cross-section, in its own material frame: bending stiffness about x and y, torsional,
 /// axial and shear stiffness, rest curvature and twist u*, rest shear and stretch v* - e3, neutral axis (x, y).
@@ -47,7 +48,7 @@ template <class C>
 struct TensionPieceOf {
     C start;
     int count;
-    C c[4];
+    C c[MAX_TENSION_COEFFICIENTS];
 };
 using TensionPiece = TensionPieceOf<double>;
 

@@ -86,7 +86,7 @@ void lift(const RobotTables<double>& base, const std::vector<const RobotTables<d
         out.push_back(blank<D>((base.*table)[i]));
         pair_up(out.back(), (base.*table)[i], [](D& to, double from) { to = D(from); });
         for (std::size_t l = 0; l < rates.size(); ++l)
-            if (rates[l]) pair_up(out.back(), (rates[l]->*table)[i], [l](D& to, double rate) { to.d[l] = rate; });
+            if (rates[l] && i < (rates[l]->*table).size()) pair_up(out.back(), (rates[l]->*table)[i], [l](D& to, double rate) { to.d[l] = rate; });
     }
 }
 
@@ -107,11 +107,12 @@ RobotTables<D> moving(const RobotTables<double>& base, const std::vector<const R
     return out;
 }
 
-/// Whether two robots have the same numbers of everything, so that one can be the other's rates.
+/// Whether robot b can be the rates of robot a: as many of everything, but that a may have more point loads, at the end,
+/// of which nothing changes.
 inline bool same_layout(const RobotTables<double>& a, const RobotTables<double>& b) {
     return a.tubes.size() == b.tubes.size() && a.pieces.size() == b.pieces.size() && a.tendons.size() == b.tendons.size() &&
            a.routing.size() == b.routing.size() && a.profiles.size() == b.profiles.size() &&
-           a.point_loads.size() == b.point_loads.size() && a.distributed_loads.size() == b.distributed_loads.size();
+           a.point_loads.size() >= b.point_loads.size() && a.distributed_loads.size() == b.distributed_loads.size();
 }
 
 }  // namespace tactr

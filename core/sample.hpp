@@ -21,6 +21,7 @@ struct StationRecord {
 struct TendonRecord {
     int host;  // tube, -1: absent at this station
     double r[2], tension;
+    double rate, direction[3];  // its length per length of the robot, and its unit tangent in world axes
 };
 
 struct Samples {
@@ -107,11 +108,13 @@ class Sampler {
 
     template <class M>
     void record_tendons(M& march, const Section<double>& section, int station) {
-        for (int j = 0; j < robot_.tendon_count; ++j) samples_.tendon[station * robot_.tendon_count + j] = TendonRecord{-1, {0, 0}, 0};
+        for (int j = 0; j < robot_.tendon_count; ++j) samples_.tendon[station * robot_.tendon_count + j] = TendonRecord{-1, {0, 0}, 0, 0, {0, 0, 0}};
         for (int h = section.hosted.begin; h < section.hosted.end; ++h) {
             const TendonState<double>& tendon = march.solver.tendons[h - section.hosted.begin];
-            samples_.tendon[station * robot_.tendon_count + layout_.hosted[h].tendon] =
-                TendonRecord{section.active[tendon.slot], {tendon.r[0], tendon.r[1]}, tendon.tension};
+            double n[3] = {}, m[3] = {}, inverse, t[3], r[2];
+            add_tendon(tendon, march.solver.cosine[tendon.slot], march.solver.sine[tendon.slot], dense_.strains, n, m, inverse, t, r);
+            samples_.tendon[station * robot_.tendon_count + layout_.hosted[h].tendon] = TendonRecord{
+                section.active[tendon.slot], {tendon.r[0], tendon.r[1]}, tendon.tension, 1.0 / inverse, {t[0], t[1], t[2]}};
         }
     }
 };
@@ -128,6 +131,12 @@ inline void place_in_world(const Shooting& shooting, const BaseState<double>& ba
         to_world(turn, relative, p);
         std::copy(q, q + 4, station.quaternion);
         std::copy(p, p + 3, station.position);
+        for (int j = 0; j < samples.tendons; ++j) {
+            double t[3];
+            TendonRecord& tendon = samples.tendon[(&station - samples.stations.data()) * samples.tendons + j];
+            to_world(station.quaternion, tendon.direction, t);
+            std::copy(t, t + 3, tendon.direction);
+        }
     }
 }
 

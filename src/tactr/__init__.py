@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from tactr import examples, materials, reference, reproduce
     from tactr.calibration import Calibration, Frame, Measurements, Parameter, calibrate
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
+    from tactr.friction import Driven, DriveState, TubeContact, TubeFrictionState, drive
     from tactr.io import load, save
     from tactr.robot import (
         Along,
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
         TendonLimits,
         TensionProfile,
         Tube,
+        TubeFriction,
         TubeLimits,
         VaryingStiffness,
     )
@@ -66,6 +68,7 @@ if TYPE_CHECKING:
 _HOME = {
     "tactr.calibration": ("Calibration", "Frame", "Measurements", "Parameter", "calibrate"),
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
+    "tactr.friction": ("DriveState", "Driven", "TubeContact", "TubeFrictionState", "drive"),
     "tactr.io": ("load", "save"),
     "tactr.robot": (
         "Along",
@@ -91,6 +94,7 @@ _HOME = {
         "TendonLimits",
         "TensionProfile",
         "Tube",
+        "TubeFriction",
         "TubeLimits",
         "VaryingStiffness",
     ),
@@ -129,6 +133,8 @@ __all__ = [
     "Calibration",
     "Contact",
     "DistributedLoad",
+    "DriveState",
+    "Driven",
     "FileError",
     "Followed",
     "Frame",
@@ -166,6 +172,9 @@ __all__ = [
     "TendonShape",
     "TensionProfile",
     "Tube",
+    "TubeContact",
+    "TubeFriction",
+    "TubeFrictionState",
     "TubeLimits",
     "TubeShape",
     "VaryingStiffness",
@@ -173,6 +182,7 @@ __all__ = [
     "Work",
     "branches",
     "calibrate",
+    "drive",
     "examples",
     "follow",
     "load",

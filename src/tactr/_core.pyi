@@ -19,6 +19,11 @@ class PreparedRobot:
         point_loads: np.ndarray,
         distributed_loads: np.ndarray,
     ) -> None: ...
+    def with_profiles(self, counts: list[int], profiles: np.ndarray) -> PreparedRobot:
+        """The same robot with other tension profiles, counts[j] pieces for tendon j."""
+
+    def section_ends(self, translation: np.ndarray) -> np.ndarray:
+        """Ends of the sections from base to tip, m from the guide's exit."""
 
 class Solution:
     """What a solve found."""
@@ -104,6 +109,20 @@ def potential_energy(robot: PreparedRobot, solution: Solution) -> float:
 
 def free_end_distance(robot: PreparedRobot, a: Solution, b: Solution) -> float:
     """Largest turn between two free ends, rad."""
+
+def friction_step(
+    robot: PreparedRobot,
+    tension: np.ndarray,
+    rotation: np.ndarray,
+    translation: np.ndarray,
+    tolerance: float,
+    residual_tolerance: float,
+    nodes: np.ndarray,
+    guess: Solution | None = None,
+    stay: bool = False,
+) -> dict[str, Any]:
+    """One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the
+    nodes."""
 
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""

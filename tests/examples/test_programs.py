@@ -4,7 +4,9 @@ import re
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy.integrate import cumulative_simpson
 
 import tactr
 from tactr.io import loads
@@ -25,6 +27,33 @@ def test_two_tubes():
 def test_load_and_save():
     result = runpy.run_path(str(ROOT / "examples" / "load_and_save.py"))
     assert result["largest_curvature"] == pytest.approx(4.04627, abs=1e-4)
+
+
+def test_hysteresis(capsys):
+    """Width of the loop at 5 N and its heat, from the closed form of tests/friction/test_bending.py."""
+    result = runpy.run_path(str(ROOT / "examples" / "hysteresis.py"))
+    stiffness = result["robot"].tubes[0].stiffness
+    sigma = np.linspace(0.0, 0.2, 2001)
+    slope = 0.15 * 3e-3 / stiffness.EI_x * sigma
+    held = np.minimum(1 / (1 / 5 - slope), 1 / (1 / 9 + slope))
+    again = np.maximum(1 / (1 / 5 + slope), 1 / (1 / 1 - slope))
+
+    def reach(tension):
+        angle = cumulative_simpson(tension * 3e-3 / stiffness.EI_x, x=sigma, initial=0.0)
+        return cumulative_simpson((1 - tension / stiffness.EA) * np.sin(angle), x=sigma)[-1]
+
+    assert result["width"] == pytest.approx(reach(held) - reach(again), abs=1e-6)
+    assert result["held"] == pytest.approx(held[[0, 1000, 2000]], rel=1e-6)
+
+
+def test_tube_friction():
+    """Lag of a straight tube in a curved one: at the end its moment M = EI kappa is borne by forces
+    M / lever, with that of four radii a torque of mu M / 2, which winds up both tubes."""
+    result = runpy.run_path(str(ROOT / "examples" / "tube_friction.py"))
+    outer, inner = (tube.stiffness for tube in result["robot"].tubes)
+    moment = inner.EI_x * 8.0 * outer.EI_x / (outer.EI_x + inner.EI_x)
+    lag = 0.5 * 0.15 * moment * 0.15 * (1.0 / inner.GJ + 1.0 / outer.GJ)
+    assert [result["lag"], result["back"]] == pytest.approx([lag, lag], rel=0.05)
 
 
 def test_the_python_of_the_readme(tmp_path, monkeypatch, capsys):

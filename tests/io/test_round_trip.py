@@ -90,6 +90,8 @@ def robots(draw):
         precurvature=draw(pieces),
         translation=-draw(st.floats(0, 0.05)),
         rotation=draw(numbers),
+        rotation_play=draw(st.just(0.0) | positive),
+        translation_play=draw(st.just(0.0) | positive),
     )
     tendon_names = draw(st.lists(names, max_size=3, unique=True))
     tendons = [
@@ -103,6 +105,9 @@ def robots(draw):
             pretension=draw(st.just(0.0) | positive),
             rest_length=draw(st.none() | positive),
             end=draw(st.none() | st.floats(0.06, 0.1)),
+            friction=draw(st.just(0.0) | positive | st.just(((0.0, 0.1), (0.03, 0.25)))),
+            contacts=draw(st.none() | st.just((0.0, 0.02, 0.05))),
+            play=draw(st.just(0.0) | positive),
         )
         for name in tendon_names
     ]

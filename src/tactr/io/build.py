@@ -69,7 +69,7 @@ def _attempt(make: Callable[[], T], prefix: str, report: Report) -> T | None:
         return None
 
 
-_PAIRS = {"precurvature": ("from", "u"), "parts": ("from", "routing")}
+_PAIRS = {"precurvature": ("from", "u"), "parts": ("from", "routing"), "friction": ("from", "coefficient")}
 
 
 def _path(field: str) -> DataPath:
@@ -95,6 +95,8 @@ def _tendon(data: dict[str, Any]) -> Tendon:
         values["tension"] = under("tension", lambda: TensionProfile(**data["tension"]))
     if "limits" in data:
         values["limits"] = under("limits", lambda: TendonLimits(**data["limits"]))
+    if isinstance(data.get("friction"), tuple):
+        values["friction"] = [(piece["from"], piece["coefficient"]) for piece in data["friction"]]
     return Tendon(**values)
 
 

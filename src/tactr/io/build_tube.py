@@ -19,6 +19,7 @@ from tactr.robot import (
     Stiffness,
     SymmetricNotches,
     Tube,
+    TubeFriction,
     TubeLimits,
     VaryingStiffness,
 )
@@ -36,7 +37,8 @@ def under(prefix: str, make: Callable[[], T]) -> T:
 
 def build_tube(data: dict[str, Any]) -> Tube:
     """The tube. Raises RobotError with the field as the file names it."""
-    values = {key: data[key] for key in ("name", "length", "translation", "rotation") if key in data}
+    plain = ("name", "length", "translation", "rotation", "rotation_play", "translation_play")
+    values = {key: data[key] for key in plain if key in data}
     if "sections" in data:
         values["section"] = [
             (piece["from"], under(f"sections[{k}]", lambda piece=piece: _section(piece)))
@@ -50,6 +52,10 @@ def build_tube(data: dict[str, Any]) -> Tube:
         values["precurvature"] = _rest(data["precurvature"])
     if "limits" in data:
         values["limits"] = under("limits", lambda: TubeLimits(**data["limits"]))
+    if "friction" in data:
+        given = data["friction"]
+        friction = under("friction", lambda: TubeFriction(**given)) if isinstance(given, dict) else given
+        values["friction"] = friction
     try:
         return Tube(**values)
     except RobotError as error:

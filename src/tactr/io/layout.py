@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from tactr.io.fields import Coefficients, Items, Text, quantity, vector
-from tactr.io.layout_tube import NOTCHES, REST, TUBE
+from tactr.io.layout_tube import NOTCHES, REST, TUBE, Pieces
 from tactr.io.records import Either, Field, Record, Texts, Variants, given
 
 LENGTH, ANGLE, FORCE = quantity("length"), quantity("angle"), quantity("force")
@@ -105,6 +105,13 @@ TENDON_LIMITS = Record(
         "displacement": Field(Items(LENGTH, 2), 'such as ["-2 mm", "5 mm"]'),
     },
 )
+FRICTION_PIECE = Record(
+    "The friction from one arc length of the tube on.",
+    {
+        "from": Field(LENGTH, 'arc length where it begins, such as "60 mm"', required=True),
+        "coefficient": Field(quantity("number"), "as for a whole tendon", required=True),
+    },
+)
 TENDON = Record(
     "One tendon.",
     {
@@ -137,6 +144,15 @@ TENDON = Record(
         ),
         "end": Field(LENGTH, "arc length of the tube where it ends; default: the tube's tip"),
         "limits": Field(TENDON_LIMITS, "how far its actuator goes, for sliders"),
+        "friction": Field(
+            Pieces(quantity("number"), Items(FRICTION_PIECE)),
+            "Coulomb's coefficient between tendon and channel, or pieces; default 0",
+        ),
+        "contacts": Field(
+            Items(LENGTH),
+            'arc lengths of the disks on which it rubs, such as ["20 mm", "40 mm"]; default: all along',
+        ),
+        "play": Field(LENGTH, "whole backlash of its motor; default 0"),
     },
 )
 POINT_LOAD = Record(

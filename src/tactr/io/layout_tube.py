@@ -40,8 +40,8 @@ def along(base: str) -> Either:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class _Pieces:
-    """``one`` for the whole tube, or a list of mappings, each from one arc length on."""
+class Pieces:
+    """``one`` for the whole length, or a list of mappings, each from one arc length on."""
 
     one: Block
     pieces: Items
@@ -195,6 +195,20 @@ TUBE_LIMITS = Record(
         "translation": Field(Items(LENGTH, 2), 'z of the proximal end, such as ["-60 mm", 0]'),
     },
 )
+TUBE_FRICTION = Either(
+    Record(
+        "Coulomb friction of the tube that turns in the next body around it.",
+        {
+            "coefficient": Field(quantity("number"), "of friction, at least 0", required=True),
+            "radius": Field(LENGTH, "of the contact; default half the tube's outer diameter"),
+            "lever": Field(
+                LENGTH,
+                "over which a concentrated contact moment is borne by two forces; default two diameters",
+            ),
+        },
+    ),
+    quantity("number"),
+)
 TUBE = Record(
     "One tube: its section is outer_diameter and inner_diameter, or diameter (a solid rod), or stiffness; or "
     "sections, one after the other.",
@@ -204,11 +218,11 @@ TUBE = Record(
         **SECTION,
         "sections": Field(Items(SECTION_PIECE), "sections one after the other, the first from 0 mm"),
         "material": Field(
-            _Pieces(ANY_MATERIAL, Items(MATERIAL_PIECE)),
+            Pieces(ANY_MATERIAL, Items(MATERIAL_PIECE)),
             "the name of a preset such as nitinol, or E and one of G and nu; or pieces",
         ),
         "precurvature": Field(
-            _Pieces(Either(REST, CURVATURE), Items(REST_PIECE)),
+            Pieces(Either(REST, CURVATURE), Items(REST_PIECE)),
             'rest curvature and twist in the tube\'s own frame, such as ["10 1/m", 0, 0], or pieces, or a '
             "helix, points or strains",
         ),
@@ -217,6 +231,13 @@ TUBE = Record(
         ),
         "rotation": Field(ANGLE, "angle about +z imposed at the proximal end; default 0"),
         "limits": Field(TUBE_LIMITS, "how far its actuators go, for sliders"),
+        "rotation_play": Field(ANGLE, "whole backlash of its rotation; default 0"),
+        "translation_play": Field(LENGTH, "whole backlash of its translation; default 0"),
+        "friction": Field(
+            TUBE_FRICTION,
+            "of the tube that turns in the next outer tube, the outermost one in the guide: a coefficient, "
+            "or with radius and lever",
+        ),
     },
     given(*SECTIONS, "sections"),
     choice=f"{CHOICE}, or sections",

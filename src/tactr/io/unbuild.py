@@ -81,6 +81,21 @@ def _tendon(tendon: Tendon, place: str) -> dict[str, Any]:
         data["end"] = write(tendon.end, "length")
     if tendon.limits is not None:
         data["limits"] = write_ranges(tendon.limits, tension="force", displacement="length")
+    return data | _friction(tendon)
+
+
+def _friction(tendon: Tendon) -> dict[str, Any]:
+    data: dict[str, Any] = {}
+    if isinstance(tendon.friction, tuple):
+        data["friction"] = [
+            {"from": write(start, "length"), "coefficient": value} for start, value in tendon.friction
+        ]
+    elif tendon.friction:
+        data["friction"] = tendon.friction
+    if tendon.contacts is not None:
+        data["contacts"] = write_vector(tendon.contacts, "length")
+    if tendon.play:
+        data["play"] = write(tendon.play, "length")
     return data
 
 

@@ -20,6 +20,7 @@ from tactr.robot import (
     Stiffness,
     SymmetricNotches,
     Tube,
+    TubeFriction,
     VaryingStiffness,
 )
 
@@ -76,7 +77,19 @@ def unbuild_tube(tube: Tube, place: str) -> dict[str, Any]:
         data["rotation"] = write(tube.rotation, "angle")
     if tube.limits is not None:
         data["limits"] = write_ranges(tube.limits, rotation="angle", translation="length")
+    if tube.rotation_play:
+        data["rotation_play"] = write(tube.rotation_play, "angle")
+    if tube.translation_play:
+        data["translation_play"] = write(tube.translation_play, "length")
+    if tube.friction is not None:
+        data["friction"] = _friction(tube.friction)
     return data
+
+
+def _friction(friction: TubeFriction) -> Any:
+    lengths = {key: getattr(friction, key) for key in ("radius", "lever")}
+    given = {key: write(value, "length") for key, value in lengths.items() if value is not None}
+    return {"coefficient": friction.coefficient} | given if given else friction.coefficient
 
 
 def _section(section: Section, place: str) -> dict[str, Any]:

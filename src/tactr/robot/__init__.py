@@ -14,6 +14,7 @@ from tactr.robot.routing import Helix, PolarPolynomial, Polynomial, Routing, Str
 from tactr.robot.section import Annulus, Rod, Section, Stiffness
 from tactr.robot.tendon import Tendon, TensionProfile
 from tactr.robot.tube import Tube
+from tactr.robot.tube_friction import TubeFriction
 from tactr.robot.varying import VaryingStiffness
 
 __all__ = [
@@ -44,6 +45,7 @@ __all__ = [
     "TendonLimits",
     "TensionProfile",
     "Tube",
+    "TubeFriction",
     "TubeLimits",
     "VaryingStiffness",
 ]

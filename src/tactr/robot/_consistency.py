@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
+from tactr.robot.friction import check_along
 from tactr.robot.load import DistributedLoad, Gravity, Load, PointLoad
 from tactr.robot.parts import Part
 from tactr.robot.tendon import Tendon
@@ -114,6 +115,10 @@ def _check_tendon(field: str, tendon: Tendon, tubes: Sequence[Tube]) -> None:
             f"an end above {check.show(-tube.translation, 'm')} and at most {check.show(tube.length, 'm')}",
             value=end,
         )
+    try:
+        check_along(tendon, end)
+    except RobotError as error:
+        raise error.under(field) from None
     if not tendon.routing.covers(0.0, end):
         first, last = tendon.routing.domain
         raise RobotError(

@@ -10,6 +10,7 @@ import numpy as np
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
+from tactr.robot.friction import Friction, FrictionLike, plain_contacts, plain_friction
 from tactr.robot.limits import TendonLimits, plain_limits
 from tactr.robot.routing import Routing
 
@@ -78,6 +79,11 @@ class Tendon:
     as if the motors were zeroed there. Tubes that turn or move then pull no tendon in an unloaded robot; a
     tendon once tied, whose motor stays where it is, has the rest_length of where it was tied (see
     ``tactr.rest_lengths``), and its tension changes when curved tubes turn or move.
+
+    friction: Coulomb's coefficient between tendon and channel, at least 0, or pieces ``(start, coefficient)``
+    over sigma in m. contacts: sigma in m of the disks on which it rubs; None: all along a channel. play: m,
+    at least 0, the whole backlash of its motor. Both count in ``tactr.drive`` only, which knows what came
+    before: ``tactr.solve`` gives the shape without friction and backlash, and says so.
     """
 
     name: str
@@ -92,6 +98,30 @@ class Tendon:
     rest_length: float | None = None
     end: float | None = None
     limits: TendonLimits | None = None
+    friction: Friction = 0.0
+    contacts: tuple[float, ...] | None = None
+    play: float = 0.0
+
+    if TYPE_CHECKING:  # the constructor takes more forms than the fields store
+
+        def __init__(
+            self,
+            name: str,
+            tube: str,
+            routing: Routing,
+            *,
+            host: Host = "own",
+            tension: float | TensionProfile = 0.0,
+            displacement: float | None = None,
+            compliance: float = 0.0,
+            pretension: float = 0.0,
+            rest_length: float | None = None,
+            end: float | None = None,
+            limits: TendonLimits | None = None,
+            friction: FrictionLike = 0.0,
+            contacts: Sequence[float] | np.ndarray | None = None,
+            play: float = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         name = check.name("name", self.name)
@@ -109,6 +139,8 @@ class Tendon:
             check.store(self, limits=plain_limits(self.limits, TendonLimits))
             if self.end is not None:
                 check.store(self, end=check.real("end", self.end, "m", above=0))
+            check.store(self, friction=plain_friction(self.friction), contacts=plain_contacts(self.contacts))
+            check.store(self, play=check.real("play", self.play, "m", least=0))
 
 
 def _host(value: object) -> str:

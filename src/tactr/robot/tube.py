@@ -15,6 +15,7 @@ from tactr.robot.pieces import Pieces, PiecesLike, PrecurvatureLike, Vector3, pl
 from tactr.robot.rest import RestShape
 from tactr.robot.section import Section, Stiffness
 from tactr.robot.stretch import Stretch, stretches_of
+from tactr.robot.tube_friction import TubeFriction, plain_tube_friction
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,8 @@ class Tube:
     and rest shear and stretch. Pieces hold from ``start`` on, where start is the tube's own arc length sigma
     in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
     (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. limits: how far its
-    actuators go, if known. Raises RobotError.
+    actuators go, if known. rotation_play: rad, translation_play: m, at least 0: the whole backlash of its
+    actuators, which counts in ``tactr.drive`` only. Raises RobotError.
     """
 
     name: str
@@ -41,6 +43,9 @@ class Tube:
     translation: float = 0.0
     rotation: float = 0.0
     limits: TubeLimits | None = None
+    rotation_play: float = 0.0
+    translation_play: float = 0.0
+    friction: TubeFriction | None = None
 
     if TYPE_CHECKING:  # the constructor takes more forms than the fields store
 
@@ -55,6 +60,9 @@ class Tube:
             translation: float = 0.0,
             rotation: float = 0.0,
             limits: TubeLimits | None = None,
+            rotation_play: float = 0.0,
+            translation_play: float = 0.0,
+            friction: TubeFriction | float | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -66,10 +74,13 @@ class Tube:
                 self, translation=plain_translation(self.translation), rotation=plain_rotation(self.rotation)
             )
             check.store(self, limits=plain_limits(self.limits, TubeLimits))
+            for field, unit in (("rotation_play", "rad"), ("translation_play", "m")):
+                check.store(self, **{field: check.real(field, getattr(self, field), unit, least=0)})
             check.store(self, section=plain_section(self.section, length))
             check.store(self, material=plain_material(self.material, length))
             check.store(self, precurvature=plain_precurvature(self.precurvature, length))
             check_parts(self.parts, length)
+            check.store(self, friction=plain_tube_friction(self.friction, self.outer_diameter))
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:

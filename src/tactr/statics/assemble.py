@@ -16,6 +16,7 @@ from tactr.robot.stretch import QUANTITIES
 
 COEFFICIENTS = 16
 TUBE_COEFFICIENTS = 8
+TENSION_COEFFICIENTS = 12
 
 
 def assemble(robot: Robot) -> _core.PreparedRobot:
@@ -35,7 +36,10 @@ def tables(robot: Robot) -> dict[str, np.ndarray]:
         "routing": _table(
             [row for tendon in robot.tendons for row in _routing_rows(robot, tendon)], 5 + 2 * COEFFICIENTS
         ),
-        "profiles": _table([row for tendon in robot.tendons for row in _profile_rows(tendon)], 6),
+        "profiles": _table(
+            [row for tendon in robot.tendons for row in _profile_rows(tendon)],
+            2 + TENSION_COEFFICIENTS,
+        ),
         "point_loads": _table(
             [_point_row(robot, load, index) for load in robot.loads if isinstance(load, PointLoad)], 9
         ),
@@ -96,12 +100,18 @@ def _profile_rows(tendon: Tendon) -> list[list[float]]:
     if not isinstance(tendon.tension, TensionProfile):
         return []
     sigma, values = tendon.tension.sigma, tendon.tension.values
-    rows = [[-math.inf, 1, values[0], 0.0, 0.0, 0.0]] if sigma[0] > 0.0 else []
+    rows = [tension_row(-math.inf, values[0])] if sigma[0] > 0.0 else []
     for k in range(len(sigma) - 1):
         slope = (values[k + 1] - values[k]) / (sigma[k + 1] - sigma[k])
-        rows.append([sigma[k], 2, values[k], slope, 0.0, 0.0])
-    rows.append([sigma[-1], 1, values[-1], 0.0, 0.0, 0.0])
+        rows.append(tension_row(sigma[k], values[k], slope))
+    rows.append(tension_row(sigma[-1], values[-1]))
     return rows
+
+
+def tension_row(start: float, *coefficients: float) -> list[float]:
+    """A polynomial in sigma - start, as the kernel takes it."""
+    absent = [0.0] * (TENSION_COEFFICIENTS - len(coefficients))
+    return [start, len(coefficients), *coefficients, *absent]
 
 
 def _point_row(robot: Robot, load: PointLoad, index: dict[str, int]) -> list[float]:

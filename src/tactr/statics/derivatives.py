@@ -49,6 +49,7 @@ class Derivatives:
         _prepared: _core.PreparedRobot
         _solution: _core.Solution
         _pulled: Pulled | None
+        _driven: bool
 
         @property
         def robot(self) -> Robot: ...
@@ -119,9 +120,16 @@ class Derivatives:
         The motors of tendons pulled by displacements are held: their tensions follow. The mechanics is
         differentiated exactly; from the description to the kernel's tables by differences to 1e-10 (see
         ``tactr.statics.parameters``). s: m from the guide's exit, None for the tip, k places give (k, 6,
-        parameters). Raises NotConverged, RobotError for an unknown path.
+        parameters). Raises NotConverged; RobotError for an unknown path, or a shape of ``tactr.drive``.
         """
         self._require_convergence()
+        if self._driven:
+            raise RobotError(
+                "parameters",
+                "the tensions along this shape's tendons come from what was before it",
+                "a shape of tactr.solve, or differences of tactr.drive",
+                value=parameters,
+            )
         places = np.array([]) if s is None else _places(s)
         outside, order = self._ordered(places)
         picked = np.zeros((1 + len(places), 6, len(parameters)))

@@ -21,7 +21,7 @@ from tactr.statics.pulls import Pulled
 from tactr.statics.rest import RestState
 from tactr.statics.stability import Stability, stability_of
 from tactr.statics.stations import Stations, station_places
-from tactr.statics.status import Status, explain, status_of, told_with_pulls
+from tactr.statics.status import Status, explain, status_of, told_of_history, told_with_pulls
 
 if TYPE_CHECKING:
     import xarray
@@ -98,6 +98,7 @@ class Shape(Mechanics, Derivatives, Pulling):
         solve_time: float,
         pulled: Pulled | None = None,
         rest: Callable[[], RestState],
+        driven: bool = False,
     ) -> None:
         self.tolerance = tolerance
         self.residual_tolerance = residual_tolerance
@@ -109,6 +110,7 @@ class Shape(Mechanics, Derivatives, Pulling):
         self._stations = stations
         self._pulled = pulled
         self._rest = rest
+        self._driven = driven  # with friction and backlash, from what came before
 
     @cached_property
     def robot(self) -> Robot:
@@ -130,7 +132,9 @@ class Shape(Mechanics, Derivatives, Pulling):
     def message(self) -> str:
         """What happened; for a failure its cause and remedy."""
         text = explain(self.status, self._solution, self.tolerance)
-        return text if self._pulled is None else told_with_pulls(text, self.status, self._pulled, self._base)
+        if self._pulled is not None:
+            text = told_with_pulls(text, self.status, self._pulled, self._base)
+        return f"{text}{told_of_history(self._base, self._driven)}"
 
     @property
     def residual(self) -> float:
@@ -225,6 +229,7 @@ class Shape(Mechanics, Derivatives, Pulling):
             solve_time=self.solve_time,
             pulled=self._pulled,
             rest=self._rest,
+            driven=self._driven,
         )
 
     def plot(self, path: str | Path | None = None) -> Figure:

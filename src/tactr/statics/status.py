@@ -7,6 +7,7 @@ from enum import Enum
 from typing import TYPE_CHECKING
 
 from tactr import _core
+from tactr.robot.friction import rubs
 
 if TYPE_CHECKING:
     from tactr.robot import Robot
@@ -96,6 +97,22 @@ def told_with_pulls(text: str, status: Status, pulled: Pulled, robot: Robot) -> 
         "less, give the tendons their compliance, check the units, or start from a shape nearby with guess=."
         f"{given_up}"
     )
+
+
+def told_of_history(robot: Robot, driven: bool) -> str:
+    """Whose friction or backlash a shape leaves out: only ``tactr.drive`` knows what came before."""
+    if driven:
+        return ""
+    rubbing = [t.name for t in robot.tendons if rubs(t.friction)]
+    rubbing += [t.name for t in robot.tubes if t.friction is not None and t.friction.coefficient > 0.0]
+    loose = [t.name for t in robot.tendons if t.play]
+    loose += [t.name for t in robot.tubes if t.rotation_play or t.translation_play]
+    left = [
+        f"{what} of {', '.join(map(repr, names))}"
+        for what, names in (("friction", rubbing), ("backlash", loose))
+        if names
+    ]
+    return f"; without the {' and the '.join(left)}, which tactr.drive follows" if left else ""
 
 
 def _remark(status: Status, solution: _core.Solution) -> str:

@@ -1,0 +1,81 @@
+"""What actuators are given and pass on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactr.friction.play import passed_on
+from tactr.robot import Robot
+from tactr.statics.actuation import displacements, rotations, tensions, translations
+
+FIELDS = ("tension", "rotation", "translation", "displacement")
+
+
+@dataclass(frozen=True, eq=False)
+class Actuators:
+    """What actuators are given: tension (tendons,), rotation, translation (tubes,), displacement (tendons,),
+    NaN where there is none."""
+
+    tension: np.ndarray
+    rotation: np.ndarray
+    translation: np.ndarray
+    displacement: np.ndarray
+
+    @staticmethod
+    def of(robot: Robot) -> Actuators:
+        pulls = displacements(robot)
+        none = np.full(len(robot.tendons), np.nan)
+        return Actuators(
+            tensions(robot), rotations(robot), translations(robot), none if pulls is None else pulls
+        )
+
+    def towards(self, other: Actuators, part: float) -> Actuators:
+        """Part of the way to another."""
+        if part == 1.0:
+            return other
+        pairs = zip(self._all(), other._all(), strict=True)
+        return Actuators(*((1.0 - part) * a + part * b for a, b in pairs))
+
+    def through(self, plays: Plays, before: Actuators) -> Actuators:
+        """What the plays pass on; before: what they did."""
+        return Actuators(
+            self.tension,
+            passed_on(before.rotation, self.rotation, plays.rotation),
+            np.minimum(passed_on(before.translation, self.translation, plays.translation), 0.0),
+            passed_on(before.displacement, self.displacement, plays.displacement),
+        )
+
+    def at_zero(self) -> Actuators:
+        """Nothing given, by the same kinds of actuation."""
+        return Actuators(*(0.0 * values for values in self._all()))
+
+    def to_dict(self) -> dict[str, list[float]]:
+        """Plain lists."""
+        return {name: getattr(self, name).tolist() for name in FIELDS}
+
+    @staticmethod
+    def from_dict(data: dict[str, list[float]]) -> Actuators:
+        """What ``to_dict`` wrote."""
+        return Actuators(*(np.array(data[name], dtype=float) for name in FIELDS))
+
+    def _all(self) -> tuple[np.ndarray, ...]:
+        return self.tension, self.rotation, self.translation, self.displacement
+
+
+@dataclass(frozen=True, eq=False)
+class Plays:
+    """Whole widths: displacement (tendons,) m, rotation (tubes,) rad, translation (tubes,) m."""
+
+    displacement: np.ndarray
+    rotation: np.ndarray
+    translation: np.ndarray
+
+    @staticmethod
+    def of(robot: Robot) -> Plays:
+        return Plays(
+            np.array([t.play for t in robot.tendons], dtype=float),
+            np.array([t.rotation_play for t in robot.tubes]),
+            np.array([t.translation_play for t in robot.tubes]),
+        )

@@ -1,0 +1,289 @@
+"""Follows a sequence of actuations with friction of tendons and tubes and backlash of the actuators."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from time import perf_counter
+
+import numpy as np
+
+from tactr import _core
+from tactr.errors import RobotError
+from tactr.friction.actuators import Actuators, Plays
+from tactr.friction.driven import Driven
+from tactr.friction.equilibrium import Equilibrium, Settled
+from tactr.friction.missed import history_missed
+from tactr.friction.project import Profile
+from tactr.friction.slip import heat
+from tactr.friction.state import DriveState
+from tactr.robot import Robot, TensionProfile
+from tactr.robot.friction import rubs
+from tactr.statics.path import Path, path_points
+from tactr.statics.pulls import Pulled, is_stable
+from tactr.statics.rest import pulls_from
+from tactr.statics.shape import Shape
+from tactr.statics.solve import Prepared
+from tactr.statics.stability import is_stable_at_tensions, stability_of
+
+LONGEST_TURN = 0.3  # rad at the free end, in one step
+MOST_MISSED = 1e-4  # of log tension, of what smaller steps would have seen
+SHORTEST_STEP = 1.0 / 32  # of the way between two points
+
+
+def drive(
+    robot: Robot,
+    path: Path,
+    *,
+    state: DriveState | None = None,
+    tolerance: float = 1e-6,
+    stations: int | Sequence[float] | np.ndarray = 101,
+) -> Driven:
+    """Shapes along a path of actuation, with friction of tendons and tubes and backlash.
+
+    path: a sequence of mappings with tension (N), displacement (m), rotation (rad) or translation (m), each
+    as in ``solve``, or one mapping from these names to arrays, as in ``follow``; in between the actuation is
+    linear. state: what the robot remembers, the ``state`` of a result before; None: at rest, every tendon at
+    its pretension all along and every play in its middle at zero, loaded in one direction to the first point,
+    where tubes meet without friction torques.
+    What friction and backlash leave behind comes back in the result's states: nothing is hidden in the
+    robot. tolerance, stations: as in ``solve``. Every way between two points is cut into steps in which the
+    free end turns by less than 0.1 rad. A result always comes back: look at ``converged``. Model and
+    assumptions: docs/friction.md, docs/tube_friction.md. Raises RobotError.
+    """
+    points = path_points(robot, path)
+    _check(points[0])
+    prepared = Prepared(points[0], tolerance=tolerance, stations=stations)
+    if state is not None:
+        state.fits(robot)
+    return _Driver(prepared, [Actuators.of(p) for p in points]).run(state)
+
+
+def _check(robot: Robot) -> None:
+    for k, tendon in enumerate(robot.tendons):
+        if rubs(tendon.friction) and isinstance(tendon.tension, TensionProfile):
+            raise RobotError(
+                f"tendons[{k}].tension",
+                f"{tendon.name!r} has friction, which makes its own profile",
+                "a tension at the motor in N",
+                value=tendon.tension,
+            )
+
+
+class _Driver:
+    def __init__(self, prepared: Prepared, points: list[Actuators]) -> None:
+        self._prepared, self._points = prepared, points
+        self._robot = prepared.robot
+        self._plays = Plays.of(self._robot)
+        self._equilibrium = Equilibrium(prepared)
+        self._near: Settled | None = None
+        self._at: Actuators | None = None  # passed on by the plays, at the last shape
+
+    def run(self, state: DriveState | None) -> Driven:
+        shapes, states, failed, steps = [], [], [], []
+        held = np.zeros(len(self._points), dtype=int)
+        tendons = len(self._robot.tendons)
+        heats, creeps = np.zeros((len(self._points), tendons)), np.zeros((len(self._points), tendons))
+        tube_heats = np.zeros((len(self._points), len(self._robot.tubes)))
+        state = self._rest() if state is None else state
+        self._return(state)
+        for k, point in enumerate(self._points):
+            start = perf_counter()
+            state, count = self._reach(point, state, heats[k], creeps[k], tube_heats[k])
+            good = count > 0
+            shapes.append(self._shape(state, good, point, perf_counter() - start))
+            states.append(state)
+            held[k] = self._near.held if good and self._near is not None else 0
+            steps.append(max(count, 1))
+            failed.append("" if good and shapes[-1].converged else self._why(shapes[-1]))
+        return Driven(
+            tuple(shapes), tuple(states), tuple(failed), tuple(steps), heats, creeps, tube_heats, held
+        )
+
+    def _rest(self) -> DriveState:
+        robot = self._robot
+        return DriveState(
+            tuple(t.name for t in robot.tendons),
+            tuple(t.name for t in robot.tubes),
+            tuple(self._at_rest(j) for j in range(len(robot.tendons))),
+            None,
+            self._points[0].at_zero(),
+        )
+
+    def _return(self, state: DriveState) -> None:
+        """To the shape of a state that is gone on from."""
+        if state.given is None:
+            return
+        if not np.array_equal(np.isnan(state.passed.displacement), np.isnan(self._points[0].displacement)):
+            raise RobotError(
+                "state",
+                "tendons are pulled by tensions in it that the path pulls by displacements, or the reverse",
+                "a path that pulls every tendon as before",
+                value=state,
+            )
+        settled = self._settle(state.given, state, cold=True)
+        if settled is not None:
+            self._taken(settled, state.given, state)
+
+    def _at_rest(self, j: int) -> Profile | None:
+        channel = next((c for c in self._equilibrium.channels if c.index == j), None)
+        pretension = self._robot.tendons[j].pretension
+        if channel is None or pretension == 0.0:
+            return None
+        return Profile.even(pretension, channel.end)
+
+    def _reach(
+        self,
+        point: Actuators,
+        state: DriveState,
+        heats: np.ndarray,
+        creeps: np.ndarray,
+        tube_heats: np.ndarray,
+    ) -> tuple[DriveState, int]:
+        """The state at a point, and in how many steps it was reached; 0: not."""
+        before = state.given
+        if before is None or self._near is None:
+            settled = self._settle(point, state, cold=True)
+            if settled is None:
+                return state, 0
+            return self._taken(settled, point, state), 1
+        done, step, count = 0.0, 1.0, 0
+        while done < 1.0:
+            to = min(1.0, done + step)
+            ahead = before.towards(point, to)
+            near, at = self._near, self._at
+            assert at is not None
+            settled = self._settle(ahead, state, cold=False)
+            if settled is not None and step > SHORTEST_STEP and not self._is_fine(near, settled):
+                settled = None
+            if settled is None:
+                if step > SHORTEST_STEP:
+                    step *= 0.5
+                    continue
+                settled = self._settle(ahead, state, cold=True)  # the branch is lost: it snaps
+                if settled is None:
+                    self._near = None
+                    return state, 0
+            after = ahead.through(self._plays, state.passed)
+            index = [c.index for c in self._equilibrium.channels]
+            lost, crept = heat(
+                self._equilibrium.channels, (near, at.translation), (settled, after.translation)
+            )
+            heats[index] += lost
+            creeps[index] = np.maximum(creeps[index], crept)
+            if settled.tubes is not None:
+                tube_heats += settled.tubes.heat_from(state.rubbing, state.tubes)
+            state = self._taken(settled, ahead, state)
+            done, count, step = to, count + 1, min(2.0 * step, 1.0)
+        return state, count
+
+    def _taken(self, settled: Settled, given: Actuators, state: DriveState) -> DriveState:
+        passed = given.through(self._plays, state.passed)
+        self._near, self._at = settled, passed
+        profiles: list[Profile | None] = [None] * len(self._robot.tendons)
+        for c, profile in zip(self._equilibrium.channels, settled.profiles, strict=True):
+            profiles[c.index] = profile
+        return DriveState(state.tendons, state.tubes, tuple(profiles), given, passed, settled.tubes)
+
+    def _settle(self, given: Actuators, state: DriveState, *, cold: bool) -> Settled | None:
+        passed = given.through(self._plays, state.passed)
+        arrays = passed.tension, passed.rotation, passed.translation
+        old = [None if (p := state.profiles[c.index]) is None else p.log for c in self._equilibrium.channels]
+        pulls = None
+        if not np.isnan(passed.displacement).all():
+            prepared = self._prepared
+            pulls = pulls_from(
+                prepared._rest, arrays, passed.displacement, prepared._compliance, prepared.tolerance
+            )
+            if isinstance(pulls, Pulled):
+                return None
+        if cold:
+            plain = self._plain(passed)
+            if not plain.converged:
+                return None
+            return self._equilibrium.settle(
+                old, arrays, pulls, None, plain._solution, stay=False, tubes=state.rubbing
+            )
+        near = self._near
+        assert near is not None
+        return self._equilibrium.settle(
+            old, arrays, pulls, near, near.solution, stay=True, tubes=state.rubbing
+        )
+
+    def _plain(self, passed: Actuators) -> Shape:
+        """Without friction."""
+        pulls = None if np.isnan(passed.displacement).all() else passed.displacement
+        return self._prepared.solve(
+            tension=np.where(np.isnan(passed.displacement), passed.tension, 0.0)
+            if not self._profiled()
+            else None,
+            rotation=passed.rotation,
+            translation=passed.translation,
+            displacement=pulls,
+        )
+
+    def _profiled(self) -> bool:
+        return any(isinstance(t.tension, TensionProfile) for t in self._robot.tendons)
+
+    def _is_fine(self, a: Settled, b: Settled) -> bool:
+        """Whether the way from a to b is short enough for one step, and b as stable as a."""
+        if self._turn(a, b) > LONGEST_TURN or (not self._stable(b) and self._stable(a)):
+            return False
+        missed = [
+            history_missed(
+                a.wraps[k],
+                b.wraps[k],
+                (float(a.solution.tension[c.index]), float(b.solution.tension[c.index])),
+                (a.profiles[k], b.profiles[k]),
+            )
+            for k, c in enumerate(self._equilibrium.channels)
+        ]
+        return max(missed, default=0.0) <= MOST_MISSED
+
+    @staticmethod
+    def _stable(settled: Settled) -> bool:
+        if settled.pulled is not None:
+            return is_stable(settled.core, settled.pulled.pulls, settled.solution)
+        stable = is_stable_at_tensions(settled.core, settled.solution)
+        if stable or not settled.held:
+            return stable
+        return len(stability_of(settled.core, settled.solution).conjugate_points) <= settled.held
+
+    def _turn(self, a: Settled, b: Settled) -> float:
+        return _core.free_end_distance(self._prepared._core, a.solution, b.solution)
+
+    def _shape(self, state: DriveState, good: bool, point: Actuators, elapsed: float) -> Shape:
+        prepared, near = self._prepared, self._near
+        if not good or near is None:
+            return self._plain(point.through(self._plays, state.passed))
+        passed = state.passed
+        names = [t.name for t in self._robot.tendons]
+        pulled = ~np.isnan(passed.displacement)
+        plain = {
+            t.name: float(f)
+            for t, f, held in zip(self._robot.tendons, passed.tension, pulled, strict=True)
+            if not held and not isinstance(t.tension, TensionProfile)
+        }
+        actuation = {"tension": plain, "rotation": passed.rotation, "translation": passed.translation}
+        if pulled.any():
+            actuation["displacement"] = {
+                n: float(d) for n, d, held in zip(names, passed.displacement, pulled, strict=True) if held
+            }
+        return Shape(
+            near.core,
+            near.solution,
+            base=self._robot,
+            actuation=actuation,
+            tolerance=prepared.tolerance,
+            residual_tolerance=prepared.residual_tolerance,
+            stations=prepared._given_stations,
+            solve_time=elapsed,
+            pulled=near.pulled,
+            rest=lambda: prepared._rest,
+            driven=True,
+        )
+
+    @staticmethod
+    def _why(shape: Shape) -> str:
+        if shape.converged:
+            return "shape and friction did not settle together; the shape given is that without friction"
+        return shape.message

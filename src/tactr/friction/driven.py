@@ -1,0 +1,88 @@
+"""What ``tactr.drive`` returns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactr.friction.state import DriveState
+from tactr.statics.shape import Shape
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Driven:
+    """Shapes along a path of actuation, k points, with what the robot remembers after each.
+
+    shapes, states: k; failed: k texts, empty where the shape converged; steps: k, into how many the way to
+    each point was cut; heat (k, tendons): J that friction took from one point to the next, from its force
+    and the slip along each tendon; creep (k, tendons): m, how far at most a tendon slipped where its tension
+    was left as it was (see docs/friction.md); tube_heat (k, tubes): J that friction of every tube in the next
+    outer body took, from its torque and the slip; held (k,): in how many directions of falling energy tubes
+    that do not slide on each other hold the robot. Iterates over its shapes.
+    """
+
+    shapes: tuple[Shape, ...]
+    states: tuple[DriveState, ...]
+    failed: tuple[str, ...]
+    steps: tuple[int, ...]
+    heat: np.ndarray
+    creep: np.ndarray
+    tube_heat: np.ndarray
+    held: np.ndarray
+
+    def stable(self, k: int) -> bool:
+        """Whether shape k is stable as long as no place where tubes hold each other gives way. Its own
+        ``stability`` is that at the friction torques as they are, which any push may overcome."""
+        return len(self.shapes[k].stability.conjugate_points) <= int(self.held[k])
+
+    @property
+    def state(self) -> DriveState:
+        """After the last point: what ``drive`` goes on from."""
+        return self.states[-1]
+
+    @property
+    def converged(self) -> bool:
+        """Whether all points are."""
+        return not any(self.failed)
+
+    @property
+    def message(self) -> str:
+        """What went wrong first, or that nothing did."""
+        bad = [f"point {k}: {text}" for k, text in enumerate(self.failed) if text]
+        return bad[0] if bad else f"converged at all {len(self.shapes)} points"
+
+    @property
+    def tips(self) -> np.ndarray:
+        """Position of the distal end, (k, 3), m, world axes; NaN where there is no shape."""
+        return np.array(
+            [shape.tip_position if shape.converged else np.full(3, np.nan) for shape in self.shapes]
+        )
+
+    @property
+    def tensions(self) -> np.ndarray:
+        """At the motors, (k, tendons), N; NaN where there is no shape."""
+        count = len(self.shapes[0].robot.tendons)
+        rows = [shape.tension if shape.converged else np.full(count, np.nan) for shape in self.shapes]
+        return np.array(rows).reshape(len(rows), count)
+
+    @property
+    def lengths(self) -> np.ndarray:
+        """Of the tendons in the robot, (k, tendons), m."""
+        return np.array([shape._solution.tendon_length for shape in self.shapes]).reshape(
+            len(self.shapes), -1
+        )
+
+    def __len__(self) -> int:
+        return len(self.shapes)
+
+    def __iter__(self) -> Iterator[Shape]:
+        return iter(self.shapes)
+
+    def __getitem__(self, k: int) -> Shape:
+        return self.shapes[k]
+
+    def __repr__(self) -> str:
+        good = sum(not text for text in self.failed)
+        return f"<Driven: {good} of {len(self.shapes)} points converged, {sum(self.steps)} steps>"

@@ -1,0 +1,35 @@
+"""Robots with friction, and paths to drive them along."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from tactr import Annulus, Material, Robot, Straight, Tendon, Tube
+from tactr.robot.friction import FrictionLike
+
+SOFT, STIFF = Material(E=5e9, nu=0.3), Material(E=1e20, nu=0.3)
+STRAIGHT = (0.0, 0.0, 0.0)
+
+
+def bending(
+    friction: FrictionLike = 0.2, *, both=False, material=SOFT, precurvature=STRAIGHT, loads=(), **fields
+):
+    """One tube of 200 mm that a tendon, or two opposite ones, bend far."""
+    tube = Tube(
+        "tube", length=0.2, section=Annulus(2e-3, 1.6e-3), material=material, precurvature=precurvature
+    )
+    tendons = [Tendon("up", "tube", Straight(0, 1.2e-3), friction=friction, **fields)]
+    if both:
+        tendons.append(Tendon("down", "tube", Straight(0, -1.2e-3), friction=friction, **fields))
+    return Robot([tube], tendons, loads)
+
+
+def legs(corners, cuts):
+    """Along corners, every way cut into so many."""
+    parts = [np.linspace(a, b, cuts + 1)[1:] for a, b in pairwise(corners)]
+    return np.concatenate([[corners[0]], *parts])
+
+
+def pulled(values):
+    """A path of the tension of one tendon."""
+    return {"tension": np.asarray(values, dtype=float)[:, None]}

@@ -1,0 +1,190 @@
+"""Loops of tensions and displacements: dead band, closure, memory, heat."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import tactr
+from tactr import Annulus, DriveState, Material, Robot, Straight, Tendon, Tube
+
+from .robots import SOFT, bending, legs, pulled
+
+
+@pytest.mark.parametrize("actuation", ["tension", "displacement"])
+def test_without_friction_it_is_plain_statics(actuation):
+    robot = bending(0.0, both=True, compliance=1e-4, pretension=1.0)
+    rows = np.array([[2.0, 1.0], [5.0, 0.5], [1.0, 3.0]]) if actuation == "tension" else None
+    rows = np.array([[1e-3, -1e-3], [3e-3, -3e-3], [-1e-3, 1e-3]]) if rows is None else rows
+    driven = tactr.drive(robot, {actuation: rows})
+    plain = [tactr.solve(robot, **{actuation: row}).tip_position for row in rows]
+    assert driven.converged
+    assert driven.tips == pytest.approx(np.array(plain), abs=1e-9)
+    assert (driven.heat == 0.0).all()
+
+
+def test_the_tip_rests_in_the_dead_band():
+    """A stiff bow that rubs before a soft end that does not: nothing moves until exp(-2 mu angle)."""
+    tube = Tube(
+        "tube",
+        length=0.2,
+        section=Annulus(2e-3, 1.6e-3),
+        material=[(0.0, Material(E=1e15, nu=0.3)), (0.1, SOFT)],
+        precurvature=[(0.0, (math.pi / 2 / 0.1, 0.0, 0.0)), (0.1, (0.0, 0.0, 0.0))],
+    )
+    robot = Robot([tube], [Tendon("up", "tube", Straight(0, 1.2e-3), friction=[(0, 0.3), (0.1, 0.0)])])
+    edge = 5.0 * math.exp(-2 * 0.3 * math.pi / 2)
+    tips = tactr.drive(robot, pulled([5.0, 4.0, 3.0, 1.001 * edge, 0.9 * edge])).tips
+    assert tips[1:4] == pytest.approx(
+        np.broadcast_to(tips[0], (3, 3)), abs=1e-7
+    )  # the bow still bends so much
+    assert np.linalg.norm(tips[4] - tips[0]) > 5e-4
+
+
+def test_the_way_back_differs_by_what_the_capstan_says():
+    driven = tactr.drive(bending(), pulled([8.0, 4.0, 1.0, 4.0]))
+    down, up = driven[1].tip_position, driven[3].tip_position
+    assert np.linalg.norm(down - up) > 1e-3
+    end = [float(state.tension("up", 0.2)[0]) for state in driven.states]
+    assert end[1] > 4.0 > end[3]
+
+
+def test_cuts_do_not_matter():
+    corners = [1.0, 8.0, 5.0, 7.0, 2.0]
+    tips = [tactr.drive(bending(), pulled(legs(corners, n))).tips[::n] for n in (1, 2, 7)]
+    assert tips[0] == pytest.approx(tips[1], abs=1e-6)
+    assert tips[2] == pytest.approx(tips[1], abs=1e-6)
+
+
+def test_a_loop_gives_off_its_area():
+    """Friction force times slip against the work of the motor."""
+    driven = tactr.drive(bending(), pulled(legs([8.0, 2.0, 8.0], 80)))
+    assert driven.tips[0] == pytest.approx(driven.tips[-1], abs=1e-7)
+    work = tactr.work(driven.shapes)
+    assert abs(work.stored) < 1e-5 * work.total
+    assert work.total == pytest.approx(driven.heat.sum(), rel=1e-3)
+    assert (driven.heat >= 0.0).all()
+
+
+def test_a_loop_over_disks_gives_off_its_area():
+    driven = tactr.drive(bending(contacts=[0.05, 0.1, 0.15]), pulled(legs([8.0, 2.0, 8.0], 60)))
+    assert tactr.work(driven.shapes).total == pytest.approx(driven.heat.sum(), rel=3e-3)
+
+
+def test_opposite_motors():
+    robot = bending(both=True, compliance=1e-4, pretension=4.0)
+    pull = legs([0.0, 1e-3, -1e-3, 1e-3], 8)
+    driven = tactr.drive(robot, {"displacement": np.stack([pull, -pull], axis=1)})
+    assert driven.converged
+    assert max(shape.displacement_error for shape in driven) < 1e-7
+    assert driven.tips[8] == pytest.approx(driven.tips[-1], abs=1e-6)
+    assert np.linalg.norm(driven.tips[10] - driven.tips[22]) > 1e-5
+    assert (driven.tensions > 0.0).all()
+
+
+def test_a_slack_tendon_forgets():
+    driven = tactr.drive(bending(), pulled([8.0, 0.0, 3.0]))
+    fresh = tactr.drive(bending(), pulled([3.0]))
+    assert driven.states[1].profiles == (None,)
+    assert driven[1].tip_position == pytest.approx([0.0, 0.0, 0.2], abs=1e-9)
+    assert driven.tips[2] == pytest.approx(fresh.tips[0], abs=1e-8)
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.floats(1.5, 4.0), st.floats(0.1, 0.9), st.floats(0.1, 0.9))
+def test_inner_loops_are_wiped_out(low, up, down):
+    """Return-point memory: a minor loop inside another ends where it began, and leaves nothing behind."""
+    high = low + up * (8.0 - low)
+    inner = high - down * (high - low)
+    driven = tactr.drive(bending(), pulled([8.0, low, high, inner, high, low, 8.0]))
+    assert driven.tips[4] == pytest.approx(driven.tips[2], abs=1e-6)
+    assert driven.tips[5] == pytest.approx(driven.tips[1], abs=1e-6)
+    assert driven.tips[6] == pytest.approx(driven.tips[0], abs=1e-6)
+    (profile,) = driven.states[6].profiles
+    assert profile is not None and len(profile.slides) == 1
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.lists(st.floats(0.5, 8.0), min_size=2, max_size=4))
+def test_cycles_close_after_the_first(corners):
+    cycle = [*corners, corners[0]]
+    driven = tactr.drive(bending(0.3), pulled([*cycle, *cycle[1:], *cycle[1:]]))
+    n = len(corners)
+    assert driven.converged
+    assert driven.tips[-n:] == pytest.approx(driven.tips[-2 * n : -n], abs=1e-6)
+
+
+def test_a_state_is_all_there_is_to_remember():
+    robot, corners = bending(), [8.0, 3.0, 6.0, 2.0, 5.0]
+    whole = tactr.drive(robot, pulled(corners))
+    first = tactr.drive(robot, pulled(corners[:3]))
+    kept = DriveState.from_dict(json.loads(json.dumps(first.state.to_dict())))
+    second = tactr.drive(robot, pulled(corners[3:]), state=kept)
+    assert second.tips == pytest.approx(whole.tips[3:], abs=1e-8)
+    assert tactr.drive(robot, pulled(corners[3:]), state=kept).tips == pytest.approx(second.tips, abs=1e-12)
+
+
+def test_backlash_of_a_motor():
+    """2 mm of play: what is passed on follows 1 mm behind, and rests over 2 mm at a reversal."""
+    loose, tight = (bending(0.0, compliance=1e-4, play=play) for play in (2e-3, 0.0))
+    path = {"displacement": np.array([[4e-3], [3e-3], [2e-3], [1e-3], [4e-3]])}
+    driven = tactr.drive(loose, path)
+    passed = [float(state.passed.displacement[0]) for state in driven.states]
+    assert passed == pytest.approx([3e-3, 3e-3, 3e-3, 2e-3, 3e-3], abs=1e-12)
+    exact = tactr.drive(tight, {"displacement": np.array([[3e-3], [2e-3]])}).tips
+    assert driven.tips[[0, 3]] == pytest.approx(exact, abs=1e-8)
+
+
+def test_backlash_of_a_tube():
+    tube = Tube(
+        "tube",
+        length=0.1,
+        section=Annulus(2e-3, 1.6e-3),
+        material=SOFT,
+        precurvature=(5.0, 0.0, 0.0),
+        rotation_play=0.2,
+        translation_play=2e-3,
+    )
+    rows = {
+        "rotation": np.array([[1.0], [0.9], [0.7]]),
+        "translation": np.array([[-0.02], [-0.019], [-0.015]]),
+    }
+    states = tactr.drive(Robot([tube]), rows).states
+    assert [float(s.passed.rotation[0]) for s in states] == pytest.approx([0.9, 0.9, 0.8])
+    assert [float(s.passed.translation[0]) for s in states] == pytest.approx([-0.019, -0.019, -0.016])
+
+
+def test_wrong_input_is_named():
+    robot = bending()
+    state = tactr.drive(robot, pulled([1.0])).state
+    with pytest.raises(tactr.RobotError, match="tension"):
+        tactr.drive(bending(tension=tactr.TensionProfile([0.0], [1.0])), [{}])
+    with pytest.raises(tactr.RobotError, match="state"):
+        tactr.drive(
+            bending(both=True),
+            pulled([1.0]) | {"tension": [[1, 1]]},
+            state=tactr.drive(robot, pulled([1])).state,
+        )
+    with pytest.raises(tactr.RobotError, match="state"):
+        tactr.drive(robot, {"displacement": [[1e-3]]}, state=state)
+    with pytest.raises(tactr.RobotError, match="cannot be read"):
+        DriveState.from_dict({})
+
+
+def test_a_tendon_dragged_by_another_is_told():
+    """Held at a tension while the other bends the tube: its profile stays, creep is how far it slipped."""
+    robot = bending(both=True)
+    driven = tactr.drive(robot, {"tension": [[1.0, 1.0], [4.0, 1.0]]})
+    lengths = driven.lengths[1] - driven.lengths[0]
+    assert driven.creep[1, 0] < 1e-9
+    assert driven.creep[1, 1] == pytest.approx(lengths[1], rel=0.05)
+
+
+def test_a_driven_shape_has_no_plain_sensitivity():
+    (shape,) = tactr.drive(bending(), pulled([3.0]))
+    assert "without" not in shape.message
+    with pytest.raises(tactr.RobotError, match="drive"):
+        shape.sensitivity(["tendons.up.friction"])
