@@ -61,6 +61,7 @@ if TYPE_CHECKING:
         solve,
         work,
     )
+    from tactr.studies import InsertionOrder, Range, Samples, Study, Sweep, Values, load_study, sweep
     from tactr.viewer import View, show
 
 _HOME = {
@@ -115,6 +116,16 @@ _HOME = {
         "solve",
         "work",
     ),
+    "tactr.studies": (
+        "InsertionOrder",
+        "Range",
+        "Samples",
+        "Study",
+        "Sweep",
+        "Values",
+        "load_study",
+        "sweep",
+    ),
     "tactr.viewer": ("View", "show"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
@@ -136,6 +147,7 @@ __all__ = [
     "Gravity",
     "GuideReaction",
     "Helix",
+    "InsertionOrder",
     "Jacobian",
     "Material",
     "Measurements",
@@ -148,10 +160,12 @@ __all__ = [
     "PolarPolynomial",
     "Polynomial",
     "Prepared",
+    "Range",
     "RestShape",
     "Robot",
     "RobotError",
     "Rod",
+    "Samples",
     "Shape",
     "Snap",
     "Spline",
@@ -159,6 +173,8 @@ __all__ = [
     "Status",
     "Stiffness",
     "Straight",
+    "Study",
+    "Sweep",
     "SymmetricNotches",
     "TactrError",
     "Tendon",
@@ -168,6 +184,7 @@ __all__ = [
     "Tube",
     "TubeLimits",
     "TubeShape",
+    "Values",
     "VaryingStiffness",
     "View",
     "Work",
@@ -176,6 +193,7 @@ __all__ = [
     "examples",
     "follow",
     "load",
+    "load_study",
     "materials",
     "reference",
     "reproduce",
@@ -183,6 +201,7 @@ __all__ = [
     "save",
     "show",
     "solve",
+    "sweep",
     "work",
 ]
 
