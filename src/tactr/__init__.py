@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tactr import examples, materials, reference, reproduce
+    from tactr.batch import Batch, solve_batch
     from tactr.calibration import Calibration, Frame, Measurements, Parameter, calibrate
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
     from tactr.io import load, save
@@ -65,6 +66,7 @@ if TYPE_CHECKING:
     from tactr.viewer import View, show
 
 _HOME = {
+    "tactr.batch": ("Batch", "solve_batch"),
     "tactr.calibration": ("Calibration", "Frame", "Measurements", "Parameter", "calibrate"),
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
     "tactr.io": ("load", "save"),
@@ -137,6 +139,7 @@ __all__ = [
     "Along",
     "Annulus",
     "AsymmetricNotches",
+    "Batch",
     "Calibration",
     "Contact",
     "DistributedLoad",
@@ -201,6 +204,7 @@ __all__ = [
     "save",
     "show",
     "solve",
+    "solve_batch",
     "sweep",
     "work",
 ]
