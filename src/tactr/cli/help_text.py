@@ -93,7 +93,8 @@ tactr view: show a robot in the browser, where everything can be moved
 
 Usage: tactr view [FILE] [OPTIONS]
 
-  FILE           a robot file (.yaml, .toml) or the name of a built-in example; default two_tube_90
+  FILE           a robot file (.yaml, .toml) or the name of a built-in example; default two_tube_90;
+                 or results of tactr sweep (.zarr): the robot amid the cloud of its tips
 
   --port NUMBER  where to serve the page; default: the first free port from 8080 on
   --headless     do not open a browser: only say where the page is
