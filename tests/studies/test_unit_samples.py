@@ -40,7 +40,9 @@ def test_a_late_stretch_of_a_long_sobol_sequence():
 @pytest.mark.parametrize("count", [1, 2, 7, 64, 1000])
 def test_latin_hypercube_has_one_sample_in_every_strip(count):
     u = unit_samples("latin_hypercube", 3, count, 5, 0, count)
-    assert np.array_equal(np.sort(np.floor(u * count), axis=0), np.repeat(np.arange(count)[:, None], 5, axis=1))
+    assert np.array_equal(
+        np.sort(np.floor(u * count), axis=0), np.repeat(np.arange(count)[:, None], 5, axis=1)
+    )
 
 
 def test_latin_hypercube_dimensions_are_not_alike():

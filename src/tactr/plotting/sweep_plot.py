@@ -49,7 +49,7 @@ def plot_sweep(sweep: Sweep, path: str | os.PathLike[str] | None = None, *, colo
         axes = figure.add_subplot(grid[0, k])
         _points(axes, tips[found & ~good], None, side, None)
         drawn.append(_points(axes, tips[good], values[good], side, scale))
-        _frame(axes, side, limits, "all")
+        _frame(axes, side, limits, "all tips")
         _slice(figure.add_subplot(grid[1, k]), tips[good], values[good], side, scale, limits)
     bar = figure.colorbar(drawn[-1], ax=figure.axes, location="right", shrink=0.7, pad=0.02, aspect=40)
     bar.set_label(str(shown))

@@ -13,8 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 BITS = 21  # of a voxel's index along each axis
-PER_VOXEL = 10.0  # tips in a voxel on average, where its edge is chosen
+PER_VOXEL = 5.0  # tips in a voxel on average, where its edge is chosen
 FINEST, COARSEST = 200, 8  # edges along the longest side that are tried
+STEPS = (1, 1.5, 2, 3, 4, 5, 6, 8)
+LEAST_DIMENSION = 2.25  # the rim of a volume takes off some of its three; a surface has two
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class Reached:
     @property
     def is_a_volume(self) -> bool:
         """Whether the tips fill a volume at this edge; else the number means nothing."""
-        return self.dimension > 2.5
+        return self.dimension > LEAST_DIMENSION
 
 
 def reached(blocks: Iterable[tuple[np.ndarray, np.ndarray]], voxel: float) -> Reached:
@@ -61,14 +63,14 @@ def reached(blocks: Iterable[tuple[np.ndarray, np.ndarray]], voxel: float) -> Re
 
 
 def good_voxel(points: np.ndarray) -> float:
-    """The smallest edge of 1, 2 or 5 times a power of ten, m, at which a voxel holds PER_VOXEL tips (k, 3)
-    on average; a eighth of the longest side at most."""
+    """The smallest round edge, m, at which a voxel holds PER_VOXEL tips (k, 3) on average; at most about an
+    eighth of the longest side."""
     longest = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     if longest == 0.0:
         return 1e-3
     exponent = np.floor(np.log10(longest / FINEST))
-    edges = [float(f"{step}e{int(exponent) + up}") for up in range(4) for step in (1, 2, 5)]
-    edges = [edge for edge in edges if longest / FINEST <= edge <= longest / COARSEST * 2.5]
+    edges = [float(f"{step}e{int(exponent) + up}") for up in range(3) for step in STEPS]
+    edges = [edge for edge in edges if longest / FINEST <= edge <= longest / COARSEST * 1.5]
     for edge in edges:
         if len(points) >= PER_VOXEL * len(np.unique(_keys(points, edge))):
             return edge

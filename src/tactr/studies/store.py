@@ -57,6 +57,7 @@ class Store:
         start, stop = self._study.span(chunk)
         for name, values in arrays.items():
             self._group[name][start:stop] = values
+        for name in arrays:
             _sync(self.path / name / "c" / str(chunk))
         self._done[chunk] = 1
         self._group[DONE][:] = self._done

@@ -20,7 +20,7 @@ from tactr.studies.axes import MOST_SAMPLES, Axis, Range, Samples, Values, actua
 from tactr.studies.insertion import InsertionOrder, Segment, segments
 
 OUTPUTS = ("tip", "stability", "jacobian", "compliance", "energy", "shape", "strain")
-LEAST_CHUNK, MOST_CHUNKS = 1024, 4096
+LEAST_CHUNK, MOST_CHUNKS = 2048, 4096
 
 
 @dataclass(frozen=True)
