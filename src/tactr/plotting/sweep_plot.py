@@ -117,7 +117,9 @@ def _histograms(sweep: Sweep, colour: str) -> list[str]:
 def _histogram(axes: Any, values: np.ndarray, shown: Named) -> None:
     finite = values[np.isfinite(values)] * shown.factor
     low, high = np.percentile(finite, [0.0, 99.0])
-    axes.hist(finite, bins=60, range=(low, high if high > low else low + 1.0), color=tube_colour(0))
+    if high - low < 1e-6 * abs(high):  # the same all over
+        low, high = low - 0.5 * abs(high), high + 0.5 * abs(high)
+    axes.hist(finite, bins=60, range=(low, high), color=tube_colour(0))
     axes.set(xlabel=str(shown), ylabel="stable shapes")
     axes.spines[["top", "right"]].set_visible(False)
 

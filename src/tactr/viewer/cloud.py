@@ -18,6 +18,13 @@ if TYPE_CHECKING:
 
 FLUID, MOST = 100_000, 1_000_000  # points at first, and at most
 FEWEST = 1_000
+PARTS = {
+    "all": (0.0, 0.0, 0.0),
+    "x below 0": (-1.0, 0.0, 0.0),
+    "x above 0": (1.0, 0.0, 0.0),
+    "y below 0": (0.0, -1.0, 0.0),
+    "y above 0": (0.0, 1.0, 0.0),
+}
 OUTLIERS = 2.0  # per cent at each end that do not stretch the scale of colours
 
 
@@ -33,33 +40,36 @@ class Cloud:
             self._shown = gui.add_checkbox("Show them", True)
             self._colour = gui.add_dropdown("Coloured by", list(names(sweep)), initial_value=self._first())
             self._legend = gui.add_html("")
+            self._part = gui.add_dropdown("Part", list(PARTS), hint="a half lets one look inside")
             self._number = gui.add_slider(
                 "Points", min=min(FEWEST, most), max=most, step=1, initial_value=min(FLUID, most),
                 hint="of all configurations, an even choice",
             )  # fmt: skip
-            self._size = gui.add_slider("Size (mm)", min=0.1, max=3.0, step=0.1, initial_value=0.6)
+            self._size = gui.add_slider("Size (mm)", min=0.1, max=3.0, step=0.1, initial_value=0.3)
         self._draw()
-        for handle in (self._colour, self._number):
+        for handle in (self._colour, self._part, self._number):
             handle.on_update(lambda _: self._draw())
         self._shown.on_update(lambda _: self._dress())
         self._size.on_update(lambda _: self._dress())
 
     def _first(self) -> str:
-        return "stability_margin" if "stability_margin" in names(self._sweep) else "z"
+        return "manipulability" if "manipulability" in names(self._sweep) else "z"
 
     def _draw(self) -> None:
         """Points and colours anew; of what is asked for meanwhile the last counts."""
         with self._working:
             rows = spread_rows(self._sweep, int(self._number.value))
             rows = rows[holds(self._sweep, rows)]
+            tips = self._sweep.dataset["tip_position"][rows].values
+            inside = tips @ np.array(PARTS[self._part.value]) >= 0.0
+            rows, tips = rows[inside], tips[inside]
             shown = named(self._sweep, self._colour.value)
             values = derived(self._sweep, self._colour.value, rows) * shown.factor
             colours, low, high = coloured(values)
-            points = PER_METRE * self._sweep.dataset["tip_position"][rows].values
             if self._node is not None:
                 self._node.remove()
             self._node = self._server.scene.add_point_cloud(
-                "/cloud", points, colours, point_size=self._point_size(), point_shape="circle",
+                "/cloud", PER_METRE * tips, colours, point_size=self._point_size(), point_shape="circle",
                 point_shading="flat", precision="float32", visible=self._shown.value,
             )  # fmt: skip
             self._legend.content = legend_html(shown, low, high, len(rows), self._sweep.count)
