@@ -31,17 +31,16 @@ def text_of(summary: Summary) -> str:
 
 
 def _reached(found: Reached) -> list[str]:
-    edge = f"{found.voxel * 1e3:g} mm"
-    if not found.is_a_volume:
-        return [
-            f"reachable volume: none that can be told: by voxels of {edge} the tips fill "
-            f"{found.dimension:.1f} dimensions (too few samples, or too few actuators vary)"
-        ]
-    half, coarse = _volume(found.half), _volume(found.coarse)
+    edge, half, coarse = f"{found.voxel * 1e3:g} mm", _volume(found.half), _volume(found.coarse)
+    caution = [
+        f"  caution: to voxels of this edge the tips fill {found.dimension:.1f} dimensions, so that the volume",
+        "  means little: more samples or a larger edge may tell, unless the tips lie on a line or surface",
+    ]
     return [
         f"reachable volume: {_volume(found.volume)}, {found.voxels} voxels of {edge} that hold a stable tip",
         f"  by half the samples {half}, by voxels of twice the edge {coarse};",
-        f"  chance that one more sample meets a new voxel: {_percent(found.unseen)}",
+        f"  chance that one more random sample meets a new voxel: {_percent(found.unseen)}",
+        *([] if found.is_a_volume else caution),
     ]
 
 
