@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 import time
+from typing import cast
 
 import numpy as np
 import pytest
@@ -33,10 +34,10 @@ STUDY = Study(
 @pytest.fixture
 def scheduler():
     distributed = pytest.importorskip("distributed", reason="no distributed: pip install 'tactr[cluster]'")
-    import dask
+    from dask import config
 
     with (
-        dask.config.set(
+        config.set(
             {"distributed.scheduler.allowed-failures": 20, "distributed.logging.distributed": "error"}
         ),
         distributed.LocalCluster(
@@ -57,7 +58,7 @@ def test_workers_killed_at_random(scheduler, tmp_path):
         with Client(scheduler) as client:
             begun.wait(60)
             while not over.is_set() and len(killed) < 4:
-                pids = list(client.run(os.getpid).values())
+                pids = list(cast(dict, client.run(os.getpid)).values())
                 if pids:
                     victim = int(random.choice(pids))
                     os.kill(victim, signal.SIGKILL)

@@ -58,9 +58,7 @@ def whole(tmp_path_factory):
 
 
 def chunks_done(path):
-    import zarr
-
-    return zarr.open_group(path, mode="r")["chunk_done"][:] if path.exists() else np.zeros(STUDY.chunks)
+    return tactr.Sweep(path).dataset["chunk_done"].values if path.exists() else np.zeros(STUDY.chunks)
 
 
 def test_killed_at_random_moments(whole, tmp_path):
@@ -114,7 +112,7 @@ def test_stopped_before_and_after_every_file(tmp_path, tendon_study, monkeypatch
         monkeypatch.undo()
         (path / "status" / "c" / "left.partial").parent.mkdir(exist_ok=True)
         (path / "status" / "c" / "left.partial").write_bytes(b"half of a file")
-        done = chunks_done_of(path)
+        done = chunks_done(path)
         rows = tactr.Sweep(path).dataset.status.values.reshape(-1, 10)
         assert (rows[done == 1] >= 0).all()
         if done.sum() > 9:
@@ -122,12 +120,6 @@ def test_stopped_before_and_after_every_file(tmp_path, tendon_study, monkeypatch
     assert writes > 100
     sweep(tendon_study, path, threads=1)
     assert files_of(path) == expected
-
-
-def chunks_done_of(path):
-    import zarr
-
-    return zarr.open_group(path, mode="r")["chunk_done"][:]
 
 
 def test_killed_while_the_store_is_made(tmp_path, tendon_study, monkeypatch):

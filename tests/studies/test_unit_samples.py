@@ -1,10 +1,17 @@
 """Samples of the unit cube: what they are, and that any stretch of them is what the whole has there."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.stats import kstest, qmc
 
 from tactr.studies.unit_samples import METHODS, permuted, unit_samples
+
+
+def sobol(dimensions: int, seed: int) -> qmc.Sobol:
+    options: dict[str, Any] = {"scramble": True, "bits": 30, "seed": np.random.default_rng(seed)}
+    return qmc.Sobol(dimensions, **options)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -26,13 +33,13 @@ def test_seeds_differ_and_repeat(method):
 
 @pytest.mark.parametrize("dimensions", [1, 4, 21])
 def test_sobol_is_scipys(dimensions):
-    engine = qmc.Sobol(dimensions, scramble=True, bits=30, seed=np.random.default_rng(9))
+    engine = sobol(dimensions, 9)
     expected = engine.random(4096)
     assert np.array_equal(unit_samples("sobol", 9, 4096, dimensions, 0, 4096), expected)
 
 
 def test_a_late_stretch_of_a_long_sobol_sequence():
-    engine = qmc.Sobol(2, scramble=True, bits=30, seed=np.random.default_rng(0))
+    engine = sobol(2, 0)
     engine.fast_forward(1_000_003)
     assert np.array_equal(unit_samples("sobol", 0, 2**21, 2, 1_000_003, 1_000_013), engine.random(10))
 

@@ -36,7 +36,7 @@ def plot_sweep(sweep: Sweep, path: str | os.PathLike[str] | None = None, *, colo
     shown = named(sweep, colour)
     rows = spread_rows(sweep, MOST_POINTS)
     tips = 1e3 * sweep.dataset["tip_position"][rows].values
-    good, found = holds(sweep, rows), np.isfinite(tips).all(axis=1)
+    good, found = holds(sweep, rows), np.isfinite(tips.sum(axis=1))
     if not good.any():
         raise RobotError("sweep", "no stable shape was found: there is nothing to draw")
     values = derived(sweep, colour, rows) * shown.factor

@@ -80,14 +80,14 @@ def _gathered(
 @contextmanager
 def _client(distributed: Any, cluster: str | None, workers: int | None) -> Iterator[Any]:
     if cluster is None:
-        import dask
+        from dask import config
 
         settings = {
             "distributed.scheduler.allowed-failures": MOST_TRIES,
             "distributed.logging.distributed": "error",
         }
         with (
-            dask.config.set(settings),
+            config.set(settings),
             distributed.LocalCluster(
                 n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1"
             ) as own,

@@ -135,5 +135,7 @@ class _Reading:
 
 def _path(field: str) -> DataPath:
     """ "vary[0].low" as it stands in the file: ("vary", 0, "from")."""
-    parts = re.findall(r"([A-Za-z_]+)|\[(\d+)\]", field)
-    return tuple(int(index) if index else WRITTEN.get(name, name) for name, index in parts)
+    path: list[str | int] = []
+    for name, index in re.findall(r"([A-Za-z_]+)|\[(\d+)\]", field):
+        path.append(int(index) if index else str(WRITTEN.get(name, name)))
+    return tuple(path)

@@ -37,24 +37,37 @@ class Study:
     """
 
     robot: Robot
-    vary: Sequence[Axis]
+    vary: tuple[Axis, ...]
     _: KW_ONLY
     samples: Samples | None = None
     insertion: InsertionOrder | None = None
-    outputs: Sequence[str] = ("tip", "stability")
+    outputs: tuple[str, ...] = ("tip", "stability")
     stations: int = 21
     tolerance: float = 1e-6
     chunk: int | None = None
     name: str = ""
     source: str = field(default="", compare=False, repr=False)
 
-    if TYPE_CHECKING:
-        vary: tuple[Axis, ...]
-        outputs: tuple[str, ...]
+    if TYPE_CHECKING:  # any sequences are taken; tuples are stored
+
+        def __init__(
+            self,
+            robot: Robot,
+            vary: Sequence[Axis],
+            *,
+            samples: Samples | None = None,
+            insertion: InsertionOrder | None = None,
+            outputs: Sequence[str] = ("tip", "stability"),
+            stations: int = 21,
+            tolerance: float = 1e-6,
+            chunk: int | None = None,
+            name: str = "",
+            source: str = "",
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         check.store(self, name=check.name("name", self.name, empty=True))
-        check.store(self, vary=check.instances("vary", self.vary, Axis, "Range or Values objects"))
+        check.store(self, vary=check.instances("vary", self.vary, (Range, Values), "Range or Values objects"))
         check.store(self, outputs=check.instances("outputs", self.outputs, str, "texts"))
         check.store(self, tolerance=check.real("tolerance", self.tolerance, "m", above=0))
         for k, output in enumerate(self.outputs):

@@ -33,8 +33,8 @@ def text_of(summary: Summary) -> str:
 def _reached(found: Reached) -> list[str]:
     edge, half, coarse = f"{found.voxel * 1e3:g} mm", _volume(found.half), _volume(found.coarse)
     caution = [
-        f"  caution: to voxels of this edge the tips fill {found.dimension:.1f} dimensions, so that the volume",
-        "  means little: more samples or a larger edge may tell, unless the tips lie on a line or surface",
+        f"  caution: to voxels of this edge the tips fill {found.dimension:.1f} dimensions, so that the",
+        "  volume means little: more samples or a larger edge may tell, or the tips lie on a surface",
     ]
     return [
         f"reachable volume: {_volume(found.volume)}, {found.voxels} voxels of {edge} that hold a stable tip",

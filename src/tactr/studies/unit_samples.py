@@ -6,6 +6,7 @@ Whoever computes the samples from 4000 to 5000 gets what one run over all of the
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -86,7 +87,8 @@ def _sobol_directions(seed: int, bits: int, dimensions: int) -> tuple[np.ndarray
     off scipy's sequence: the Gray code of 2^(k+1) - 1 is the bit k alone."""
     from scipy.stats import qmc
 
-    engine = qmc.Sobol(dimensions, scramble=True, bits=MOST_SOBOL_BITS, seed=np.random.default_rng(seed))
+    options: dict[str, Any] = {"scramble": True, "bits": MOST_SOBOL_BITS, "seed": np.random.default_rng(seed)}
+    engine = qmc.Sobol(dimensions, **options)
     points = [engine.random(1)[0]]
     for bit in range(bits):
         engine.fast_forward(2 ** (bit + 1) - 1 - engine.num_generated)
