@@ -1,7 +1,7 @@
 """Configurations a second of a sweep on 1 and 2 dask workers of this machine, in turns.
 
-python benchmarks/sweep_workers.py [SAMPLES] [ROUNDS]; start-up of the workers is not counted: the time is that from the
-first chunk's arrival to the last one's. Prints the load average, because other work on the machine shifts all of it.
+python benchmarks/sweep_workers.py [SAMPLES] [ROUNDS]. Start-up of the workers is not counted: the time is that
+from the first chunk's arrival to the last one's. The load average is printed, because other work shifts all.
 """
 
 from __future__ import annotations
@@ -22,8 +22,7 @@ def study(samples: int) -> Study:
     tensions = [Range(f"tendons.{tendon.name}.tension", 0.0, 3.0) for tendon in robot.tendons]
     turns = [Range(f"tubes.{tube.name}.rotation", -3.0, 3.0) for tube in robot.tubes]
     return Study(
-        robot, [*tensions, *turns], samples=Samples(samples), chunk=max(1, samples // 40),
-        outputs=["tip", "stability", "jacobian"],
+        robot, [*tensions, *turns], samples=Samples(samples), outputs=["tip", "stability", "jacobian"],
     )  # fmt: skip
 
 
@@ -40,7 +39,7 @@ def rate(chosen: Study, workers: int) -> tuple[float, float]:
 
 
 def main() -> None:
-    samples, rounds = (int(word) for word in (*sys.argv[1:], "20000", "3")[:2])
+    samples, rounds = (int(word) for word in (*sys.argv[1:], "40960", "3")[:2])
     chosen, rates = study(samples), {1: [], 2: []}
     for _ in range(rounds):
         for workers in (1, 2):
@@ -48,7 +47,7 @@ def main() -> None:
             rates[workers].append(found)
             load = os.getloadavg()[0]
             print(
-                f"{workers} workers: {found:.0f} a second; this process {100 * own:.0f} % of a core; load {load:.1f}"
+                f"{workers} workers: {found:.0f}/s, this process {100 * own:.0f} % of a core, load {load:.1f}"
             )
     print(f"ratio of medians {median(rates[2]) / median(rates[1]):.2f}")
 
