@@ -1,7 +1,7 @@
 """Configurations a second of a sweep on 1 and 2 dask workers of this machine, in turns.
 
-python benchmarks/sweep_workers.py [SAMPLES] [ROUNDS]. Start-up of the workers is not counted: the time is that
-from the first chunk's arrival to the last one's. The load average is printed, because other work shifts all.
+python benchmarks/sweep_workers.py [SAMPLES] [ROUNDS]. Start-up of the workers is not counted: the time is
+that from the first chunk's arrival to the last one's. The load average is printed: other work shifts all.
 """
 
 from __future__ import annotations

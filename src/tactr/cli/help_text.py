@@ -140,8 +140,9 @@ tactr view RESULTS.zarr. Exit code 2: something is wrong with the input.
 SCHEMA = """\
 tactr schema: print the JSON Schema of robot or study files, with which editors complete and check them
 
-Usage: tactr schema > robot.schema.json
-       tactr schema study > study.schema.json
+Usage: tactr schema [KIND] > robot.schema.json
+
+  KIND   robot (the default) or study
 
 The first line of a YAML file may then be: # yaml-language-server: $schema=robot.schema.json
 """

@@ -10,9 +10,9 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from tactr import __version__
 from tactr.errors import MissingExtra, TactrError
 from tactr.studies.solving import Arrays, solved
+from tactr.studies.versions import versions
 
 if TYPE_CHECKING:
     from tactr.studies.study import Study
@@ -36,12 +36,10 @@ def cluster_chunks(
         yield from _gathered(distributed, client, study, list(chunks))
 
 
-def work(study: Study, chunk: int, version: str) -> Arrays:
-    """What a worker does."""
-    if __version__ != version:
-        raise ClusterError(
-            f"a worker has tactr {__version__}, this process {version}: use the same everywhere"
-        )
+def work(study: Study, chunk: int, wanted: str) -> Arrays:
+    """What a worker does; wanted: the versions of whoever asks."""
+    if versions() != wanted:
+        raise ClusterError(f"a worker has {versions()}, this process {wanted}: use the same everywhere")
     return solved(study, *study.span(chunk), 1)
 
 
@@ -54,7 +52,7 @@ def _gathered(
     arrived = distributed.as_completed()
 
     def ask(chunk: int) -> None:
-        future = client.submit(work, study, chunk, __version__, pure=False, retries=0)
+        future = client.submit(work, study, chunk, versions(), pure=False, retries=0)
         running[future] = chunk
         arrived.add(future)
 

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tactr import __version__
 from tactr.errors import FileError, MissingExtra
 from tactr.studies.quantities import (
     NOT_DONE,
@@ -27,6 +26,7 @@ from tactr.studies.quantities import (
     input_quantity,
     labels,
 )
+from tactr.studies.versions import versions
 
 if TYPE_CHECKING:
     from tactr.studies.solving import Arrays
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 DONE = "chunk_done"
 FORMAT = 1
 WHAT = "results of tactr sweep"
+LABELS_OF = {"study": "study", "robot": "robot", "versions": "set of versions", "format": "format"}
 
 
 class Store:
@@ -117,13 +118,13 @@ def _check_same(path: Path, attributes: dict[str, Any], study: Study) -> None:
     pairs = {
         "study": study.text,
         "robot": study.robot_text,
-        "tactr_version": __version__,
+        "versions": versions(),
         "format": FORMAT,
     }
-    other = [name.replace("_", " ") for name, own in pairs.items() if attributes.get(name) != own]
+    other = [LABELS_OF[name] for name, own in pairs.items() if attributes.get(name) != own]
     if other:
         raise FileError(
-            f"holds the results of another {' and another '.join(other)}",
+            f"holds the results of another {' and another '.join(other)} ({attributes.get('versions')})",
             path=path,
             expected="another name for the results, or the same study to go on with",
         )
@@ -187,7 +188,7 @@ def _attributes(study: Study) -> dict[str, Any]:
         "study": study.text,
         "study_file": study.source,
         "robot": study.robot_text,
-        "tactr_version": __version__,
+        "versions": versions(),
         "status_names": list(NAMES),
     }
 
