@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bind_batch.hpp"
 #include "energetics.hpp"
 #include "joint.hpp"
 #include "point_contact.hpp"
@@ -478,4 +479,5 @@ NB_MODULE(_core, m) {
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
     m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");
+    tactr::bind_batch(m);
 }

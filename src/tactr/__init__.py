@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from tactr import examples, materials, reference, reproduce
+    from tactr.batch import Batch, solve_batch
     from tactr.calibration import Calibration, Frame, Measurements, Parameter, calibrate
     from tactr.errors import FileError, MissingExtra, NotConverged, RobotError, TactrError
     from tactr.friction import Driven, DriveState, TubeContact, TubeFrictionState, drive
@@ -63,9 +64,11 @@ if TYPE_CHECKING:
         solve,
         work,
     )
+    from tactr.studies import InsertionOrder, Range, Samples, Study, Sweep, Values, load_study, sweep
     from tactr.viewer import View, show
 
 _HOME = {
+    "tactr.batch": ("Batch", "solve_batch"),
     "tactr.calibration": ("Calibration", "Frame", "Measurements", "Parameter", "calibrate"),
     "tactr.errors": ("FileError", "MissingExtra", "NotConverged", "RobotError", "TactrError"),
     "tactr.friction": ("DriveState", "Driven", "TubeContact", "TubeFrictionState", "drive"),
@@ -119,6 +122,16 @@ _HOME = {
         "solve",
         "work",
     ),
+    "tactr.studies": (
+        "InsertionOrder",
+        "Range",
+        "Samples",
+        "Study",
+        "Sweep",
+        "Values",
+        "load_study",
+        "sweep",
+    ),
     "tactr.viewer": ("View", "show"),
 }
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
@@ -130,6 +143,7 @@ __all__ = [
     "Along",
     "Annulus",
     "AsymmetricNotches",
+    "Batch",
     "Calibration",
     "Contact",
     "DistributedLoad",
@@ -142,6 +156,7 @@ __all__ = [
     "Gravity",
     "GuideReaction",
     "Helix",
+    "InsertionOrder",
     "Jacobian",
     "Material",
     "Measurements",
@@ -154,10 +169,12 @@ __all__ = [
     "PolarPolynomial",
     "Polynomial",
     "Prepared",
+    "Range",
     "RestShape",
     "Robot",
     "RobotError",
     "Rod",
+    "Samples",
     "Shape",
     "Snap",
     "Spline",
@@ -165,6 +182,8 @@ __all__ = [
     "Status",
     "Stiffness",
     "Straight",
+    "Study",
+    "Sweep",
     "SymmetricNotches",
     "TactrError",
     "Tendon",
@@ -177,6 +196,7 @@ __all__ = [
     "TubeFrictionState",
     "TubeLimits",
     "TubeShape",
+    "Values",
     "VaryingStiffness",
     "View",
     "Work",
@@ -186,6 +206,7 @@ __all__ = [
     "examples",
     "follow",
     "load",
+    "load_study",
     "materials",
     "reference",
     "reproduce",
@@ -193,6 +214,8 @@ __all__ = [
     "save",
     "show",
     "solve",
+    "solve_batch",
+    "sweep",
     "work",
 ]
 

@@ -134,3 +134,21 @@ def contacts(
 
 def energetics(robot: PreparedRobot, solution: Solution) -> dict[str, Any]:
     """Energies, and the torques and forces of the actuators."""
+
+def solve_batch(
+    robots: list[PreparedRobot],
+    tension: np.ndarray,
+    rotation: np.ndarray,
+    translation: np.ndarray,
+    residual_tolerance: np.ndarray,
+    skip: np.ndarray,
+    stations: np.ndarray,
+    tolerance: float,
+    most_steps: int,
+    outputs: list[str],
+    threads: int,
+) -> dict[str, np.ndarray]:
+    """Many configurations from cold, a row for each."""
+
+def strain_maxima(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> np.ndarray:
+    """Largest |u - u*|, |v - v*| of every tube, (tubes, 6)."""

@@ -82,7 +82,7 @@ def test_the_ready_made_help_is_complete():
     assert (
         sorted(commands)
         == sorted(COMMANDS)
-        == ["calibrate", "check", "examples", "reproduce", "schema", "solve", "view"]
+        == ["calibrate", "check", "examples", "reproduce", "schema", "solve", "sweep", "view"]
     )
     for name in commands:
         assert re.search(rf"^  {name} ", HELP, re.MULTILINE)
@@ -98,7 +98,7 @@ def test_the_ready_made_help_is_complete():
 
 
 @pytest.mark.parametrize(
-    "command", ["calibrate", "check", "examples", "reproduce", "schema", "solve", "view"]
+    "command", ["calibrate", "check", "examples", "reproduce", "schema", "solve", "sweep", "view"]
 )
 def test_help_of_commands(run, command):
     for words in ([command, "--help"], [command, "x", "-h"]):

@@ -56,6 +56,30 @@ def test_tube_friction():
     assert [result["lag"], result["back"]] == pytest.approx([lag, lag], rel=0.05)
 
 
+def test_sweep_insertions():
+    result = runpy.run_path(str(ROOT / "examples" / "sweep_insertions.py"))
+    assert result["summary"].converged == result["summary"].stable == 1.0
+    assert result["reached"].volume == pytest.approx(2.43e-3, rel=0.05)
+    assert result["highest"] == pytest.approx(0.325, abs=0.01)
+
+
+def test_the_python_of_the_sweeps_page(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / "sweep.md").read_text()
+    code = re.findall(r"```python\n(.*?)```", text, re.DOTALL)[0].replace("10_000", "50")
+    names: dict[str, object] = {}
+    exec(code, names)
+    results = names["results"]
+    assert isinstance(results, tactr.Sweep)
+    assert results.count == 100
+
+
+def test_the_study_file_of_the_sweeps_page(tmp_path):
+    (text,) = re.findall(r"```yaml\n(.*?)```", (ROOT / "docs" / "sweep.md").read_text(), re.DOTALL)
+    (tmp_path / "study.yaml").write_text(text)
+    assert tactr.load_study(tmp_path / "study.yaml").count == 800_000
+
+
 def test_the_python_of_the_readme(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     code, questions = blocks("python")

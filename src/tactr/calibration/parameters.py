@@ -11,8 +11,9 @@ from typing import Any
 
 from tactr.calibration.frame import Frame
 from tactr.errors import RobotError
-from tactr.io.unit_table import KINDS, Kind
-from tactr.robot import DistributedLoad, Robot
+from tactr.io.path_kinds import kind_of
+from tactr.io.unit_table import Kind
+from tactr.robot import Robot
 from tactr.robot import _check as check
 from tactr.statics.parameters import value_of
 
@@ -28,19 +29,6 @@ FRAME = (
     "sensor.rz",
 )
 ZERO = "zero"
-KIND_OF = {  # by the last word of a path; lengths otherwise
-    "modulus": ("E", "G"),
-    "number": ("nu", "neutral_axis"),
-    "density": ("density",),
-    "linear density": ("linear_density",),
-    "force": ("tension", "pretension"),
-    "compliance": ("compliance",),
-    "angle": ("rotation", "phase", "rx", "ry", "rz"),
-    "angle rate": ("rate",),
-    "bending or torsional stiffness": ("EI_x", "EI_y", "GJ"),
-    "axial or shear stiffness": ("EA", "GA"),
-}
-INSIDE = {"precurvature": "curvature", "force": "force", "moment": "moment", "acceleration": "acceleration"}
 LEAST_SCALE = {
     "length": 1e-2,
     "angle": 0.3,
@@ -209,24 +197,3 @@ def vector_of(path: str) -> str:
     return (
         "marker" if path.startswith("marker") else "rotation" if path.startswith("sensor.r") else "position"
     )
-
-
-def kind_of(robot: Robot, path: str) -> Kind:
-    """The kind of quantity that a path of the robot names, which may hold *."""
-    last = path.rpartition(".")[2]
-    for step, kind in INSIDE.items():
-        if f".{step}." in path:
-            return KINDS[f"{kind} per length" if _is_along(robot, path) else kind]
-    for kind, words in KIND_OF.items():
-        if last in words and not path.startswith("marker"):
-            return KINDS[kind]
-    return KINDS["length"]
-
-
-def _is_along(robot: Robot, path: str) -> bool:
-    """Whether a path is of a load along a length, not at a point."""
-    group, _, rest = path.partition(".")
-    index = rest.partition(".")[0]
-    if group != "loads" or not index.isdigit() or int(index) >= len(robot.loads):
-        return False
-    return isinstance(robot.loads[int(index)], DistributedLoad)

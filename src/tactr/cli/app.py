@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
@@ -107,11 +107,46 @@ def check(files: list[str], /) -> int:
 
 
 @app.command
-def schema() -> int:
-    """Print the JSON Schema of robot files, with which editors complete and check them."""
+def sweep(
+    file: Path,
+    /,
+    *,
+    out: Path | None = None,
+    threads: int | None = None,
+    workers: int | None = None,
+    cluster: str | None = None,
+    voxel: str | None = None,
+    colour: str = "z",
+    json: bool = False,
+    plot: Path | None = None,
+) -> int:
+    """Solve all configurations of a study, or look at the results."""
+    from tactr.cli.sweep import Request, run_sweep
+
+    return run_sweep(
+        Request(
+            file,
+            out=out,
+            threads=threads,
+            workers=workers,
+            cluster=cluster,
+            voxel=voxel,
+            colour=colour,
+            json=json,
+            plot=plot,
+        )
+    )
+
+
+@app.command
+def schema(kind: Literal["robot", "study"] = "robot", /) -> int:
+    """Print the JSON Schema of robot or study files, with which editors complete and check them."""
     import json
 
-    from tactr.io.layout import json_schema
+    if kind == "study":
+        from tactr.studies.layout import json_schema
+    else:
+        from tactr.io.layout import json_schema
 
     print(json.dumps(json_schema(), indent=2, ensure_ascii=False))
     return 0

@@ -133,7 +133,7 @@ def _pairs(option: str, robot: Robot, words: Sequence[str]) -> dict[str, tuple[f
 
 
 def _value(option: str, robot: Robot, path: str, text: str) -> float:
-    from tactr.calibration.parameters import kind_of
+    from tactr.io.path_kinds import kind_of
     from tactr.io.units import UnitError, parse_quantity
 
     try:

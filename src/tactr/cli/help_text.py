@@ -9,8 +9,9 @@ Usage: tactr COMMAND [ARGUMENTS]
   view [FILE]        show a robot in the browser, where everything can be moved
   calibrate FILE DATA.csv
                      find a robot's numbers from measured points
+  sweep STUDY.yaml   solve many configurations into a store, on all cores or a cluster
   check FILE...      check robot files without solving
-  schema             print the JSON Schema of robot files, for editors
+  schema [study]     print the JSON Schema of robot or study files, for editors
   examples [NAME]    list the built-in example robots, or print one
   reproduce          solve every experiment of the paper and write a report
 
@@ -92,7 +93,8 @@ tactr view: show a robot in the browser, where everything can be moved
 
 Usage: tactr view [FILE] [OPTIONS]
 
-  FILE           a robot file (.yaml, .toml) or the name of a built-in example; default two_tube_90
+  FILE           a robot file (.yaml, .toml) or the name of a built-in example; default two_tube_90;
+                 or results of tactr sweep (.zarr): the robot amid the cloud of its tips
 
   --port NUMBER  where to serve the page; default: the first free port from 8080 on
   --headless     do not open a browser: only say where the page is
@@ -111,10 +113,36 @@ Usage: tactr check FILES...
 What a file marks as assumed is listed too. Exit code 2: a file cannot be used.
 """
 
-SCHEMA = """\
-tactr schema: print the JSON Schema of robot files, with which editors complete and check them
+SWEEP = """\
+tactr sweep: solve all configurations of a study into a store, or look at the results
 
-Usage: tactr schema > robot.schema.json
+Usage: tactr sweep STUDY.yaml [OPTIONS]
+       tactr sweep RESULTS.zarr [OPTIONS]
+
+  STUDY.yaml        a study file: a robot, what varies, how it is sampled (docs/sweep.md; tactr schema study)
+  RESULTS.zarr      results that are there: only the summary
+
+  --out FILE.zarr   where the results go; default: the study file's name, here. Results of the same study that
+                    are there are gone on with: a run that was stopped, at any moment, loses nothing
+  --threads N       threads of this process; default: as many as there are cores
+  --workers N       or processes on this machine (extra: cluster)
+  --cluster ADDRESS or a dask cluster, by its scheduler: tcp://10.0.0.1:8786 (extra: cluster)
+
+  --voxel LENGTH    edge of the cubes by which the reachable volume is counted; default: by the samples
+  --plot FILE.png   draw the tips: projections, slices, histograms (.png, .pdf, .svg)
+  --colour NAME     what colours them: z, stability_margin, manipulability, tubes.inner.rotation ...
+  --json            print the summary as JSON
+
+Needs the extra: sweep. Ctrl-C stops; the same command goes on. To walk through the results in the browser:
+tactr view RESULTS.zarr. Exit code 2: something is wrong with the input.
+"""
+
+SCHEMA = """\
+tactr schema: print the JSON Schema of robot or study files, with which editors complete and check them
+
+Usage: tactr schema [KIND] > robot.schema.json
+
+  KIND   robot (the default) or study
 
 The first line of a YAML file may then be: # yaml-language-server: $schema=robot.schema.json
 """
@@ -144,6 +172,7 @@ COMMANDS = {
     "solve": SOLVE,
     "view": VIEW,
     "calibrate": CALIBRATE,
+    "sweep": SWEEP,
     "check": CHECK,
     "schema": SCHEMA,
     "examples": EXAMPLES,

@@ -46,6 +46,11 @@ class Kind:
     example: str
     units: tuple[str, ...]
 
+    @property
+    def si_unit(self) -> str:
+        """The SI one of its units; "1" of a pure number."""
+        return "N" if "N" in self.units else self.units[-1] or "1"
+
 
 _CURVATURE = ((-1, 0, 0, 0), (-1, 0, 0, 1))
 _BENDING = (3, 1, -2, 0)

@@ -89,7 +89,7 @@ def _space(axes: Any, content: Drawing, low: np.ndarray, high: np.ndarray) -> No
     axes.set_box_aspect(high - low, zoom=1.0)
     axes.view_init(elev=18, azim=-52)
     for axis, name in ((axes.xaxis, "x"), (axes.yaxis, "y"), (axes.zaxis, "z")):
-        axis.set_major_locator(_ticks(5))
+        axis.set_major_locator(ticks(5))
         axis.set_pane_color((0.97, 0.97, 0.97, 1.0))
         axis.set_label_text(f"{name} (mm)")
         axis._axinfo["grid"].update(color="#dddddd", linewidth=0.7)
@@ -110,14 +110,15 @@ def _projection(figure: Any, cell: Any, content: Drawing, k: int, low: np.ndarra
     axes.set(xlim=(low[k], high[k]), ylim=(low[2], high[2]), aspect="equal")
     axes.set_xlabel(f"{'xy'[k]} (mm)")
     axes.set_ylabel("z (mm)" if k == 0 else "")
-    axes.xaxis.set_major_locator(_ticks(5))
+    axes.xaxis.set_major_locator(ticks(5))
     axes.grid(color="#e3e3e3", lw=0.7)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
     return axes
 
 
-def _ticks(count: int) -> Any:
+def ticks(count: int) -> Any:
+    """At most so many ticks, at round numbers."""
     from matplotlib.ticker import MaxNLocator
 
     return MaxNLocator(count, steps=[1, 2, 5, 10])

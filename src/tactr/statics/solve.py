@@ -124,8 +124,7 @@ class Prepared:
     ) -> None:
         self.robot = robot
         self.tolerance = _positive("tolerance", tolerance)
-        share = RESIDUAL_SHARE * self.tolerance / max(tube.length for tube in robot.tubes)
-        self.residual_tolerance = min(max(share, LEAST_RESIDUAL), LARGEST_RESIDUAL)
+        self.residual_tolerance = residual_tolerance_of(robot, self.tolerance)
         self._core = assemble(robot)
         self._given_stations = stations
         self._stations = station_places(robot, stations)
@@ -306,6 +305,12 @@ class Prepared:
         if not (isinstance(given, np.ndarray) and given.dtype == np.float64 and given.shape == own.shape):
             return False
         return bool(((given >= above) & (given <= most) & np.isfinite(given)).all())
+
+
+def residual_tolerance_of(robot: Robot, tolerance: float) -> float:
+    """The angle by which the base may be missed, rad."""
+    share = RESIDUAL_SHARE * tolerance / max(tube.length for tube in robot.tubes)
+    return min(max(share, LEAST_RESIDUAL), LARGEST_RESIDUAL)
 
 
 def _start(guess: Shape | None) -> _core.Solution | None:

@@ -7,13 +7,15 @@ import sys
 
 from tactr.robot import Robot
 from tactr.statics import Shape
+from tactr.studies import Sweep
 from tactr.viewer.view import View
 
 
 def show(
-    shown: Shape | Robot, *, block: bool | None = None, port: int | None = None, browser: bool = True
+    shown: Shape | Robot | Sweep, *, block: bool | None = None, port: int | None = None, browser: bool = True
 ) -> View:
-    """Open a page with a shape, or with a robot, in which everything can be moved. (extra: view)
+    """Open a page with a shape, or with a robot, in which everything can be moved; a sweep's robot comes with
+    the cloud of its tips. (extra: view)
 
     block: wait until the page is closed; None: in a script, not in a notebook or at a prompt, where the View
     that comes back shows itself and is ended with ``close()``. port: None for the first free one from 8080

@@ -9,6 +9,8 @@ from types import TracebackType
 from tactr.errors import RobotError
 from tactr.robot import Robot
 from tactr.statics import Shape
+from tactr.studies import Sweep
+from tactr.viewer.cloud import Cloud
 from tactr.viewer.page import Page
 from tactr.viewer.server import HOST, make_server, stop_server
 
@@ -19,13 +21,15 @@ GRACE = 4.0
 class View:
     """A page with a robot, served on the loopback address until it is closed.
 
-    url: where it is. In a notebook it shows itself. Also a context manager.
+    Of a sweep the robot amid the cloud of its tips. url: where it is. In a notebook it shows itself. Also a
+    context manager.
     """
 
-    def __init__(self, shown: Robot | Shape, *, port: int | None = None, source: str = "") -> None:
-        if not isinstance(shown, Robot | Shape):
-            raise RobotError("shown", f"{shown!r} is neither", "a Robot or a Shape", value=shown)
-        robot = shown.robot if isinstance(shown, Shape) else shown
+    def __init__(self, shown: Robot | Shape | Sweep, *, port: int | None = None, source: str = "") -> None:
+        if not isinstance(shown, Robot | Shape | Sweep):
+            expected = "a Robot, a Shape or a Sweep"
+            raise RobotError("shown", f"{shown!r} is none of them", expected, value=shown)
+        robot = shown if isinstance(shown, Robot) else shown.robot
         shape = shown if isinstance(shown, Shape) else None
         self._server = make_server(port)
         self.port: int = self._server.get_port()
@@ -34,6 +38,7 @@ class View:
         self._leaving: threading.Timer | None = None
         try:
             self.page = Page(self._server, robot, source or "...  # your robot", shape)
+            self.cloud = Cloud(self._server, shown) if isinstance(shown, Sweep) else None
         except BaseException:
             stop_server(self._server)
             raise

@@ -1,0 +1,115 @@
+"""The chunks of a study solved on a cluster of dask.distributed: on this machine, or anywhere.
+
+A chunk is a pure function of the study and its number: a worker that dies loses work, never results, and the
+chunk goes to another one. Workers send arrays; only the process that asked writes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from tactr.errors import MissingExtra, TactrError
+from tactr.studies.solving import Arrays, solved
+from tactr.studies.versions import versions
+
+if TYPE_CHECKING:
+    from tactr.studies.study import Study
+
+AHEAD = 3  # chunks for each thread of the cluster that are asked for at a time
+MOST_TRIES = 20  # of one chunk on workers that died under it
+PATIENCE = 30.0  # s to wait for a scheduler, and for the first worker
+
+
+class ClusterError(TactrError):
+    """A cluster that cannot be used."""
+
+
+def cluster_chunks(
+    study: Study, chunks: Sequence[int], *, cluster: str | None = None, workers: int | None = None
+) -> Generator[tuple[int, Arrays], None, None]:
+    """Every chunk's number and arrays, as they come. cluster: address of a scheduler; workers: or so many
+    processes on this machine. Raises ClusterError, MissingExtra."""
+    distributed = _import()
+    with _client(distributed, cluster, workers) as client:
+        yield from _gathered(distributed, client, study, list(chunks))
+
+
+def work(study: Study, chunk: int, wanted: str) -> Arrays:
+    """What a worker does; wanted: the versions of whoever asks."""
+    if versions() != wanted:
+        raise ClusterError(f"a worker has {versions()}, this process {wanted}: use the same everywhere")
+    return solved(study, *study.span(chunk), 1)
+
+
+def _gathered(
+    distributed: Any, client: Any, study: Study, waiting: list[int]
+) -> Generator[tuple[int, Arrays], None, None]:
+    waiting.reverse()
+    tries: dict[int, int] = {}
+    running: dict[Any, int] = {}
+    arrived = distributed.as_completed()
+
+    def ask(chunk: int) -> None:
+        future = client.submit(work, study, chunk, versions(), pure=False, retries=0)
+        running[future] = chunk
+        arrived.add(future)
+
+    while waiting or running:
+        while waiting and len(running) < AHEAD * max(1, sum(client.nthreads().values())):
+            ask(waiting.pop())
+        future = next(arrived)
+        chunk = running.pop(future)
+        try:
+            arrays = future.result()
+        except (distributed.KilledWorker, distributed.CancelledError, distributed.comm.CommClosedError):
+            tries[chunk] = tries.get(chunk, 0) + 1
+            if tries[chunk] >= MOST_TRIES:
+                raise ClusterError(
+                    f"{MOST_TRIES} workers died over chunk {chunk}: if they lack memory, make chunks smaller"
+                ) from None
+            ask(chunk)
+            continue
+        future.release()
+        yield chunk, arrays
+
+
+@contextmanager
+def _client(distributed: Any, cluster: str | None, workers: int | None) -> Iterator[Any]:
+    if cluster is None:
+        from dask import config
+
+        settings = {
+            "distributed.scheduler.allowed-failures": MOST_TRIES,
+            "distributed.logging.distributed": "error",
+        }
+        with (
+            config.set(settings),
+            distributed.LocalCluster(
+                n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1"
+            ) as own,
+            distributed.Client(own) as client,
+        ):
+            yield client
+        return
+    try:
+        client = distributed.Client(cluster, timeout=PATIENCE)
+    except (OSError, TimeoutError, ValueError) as error:
+        raise ClusterError(f"no scheduler of dask answers at {cluster}: {error}") from None
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            raise ClusterError(
+                f"the scheduler at {cluster} has no workers: start dask worker {cluster}"
+            ) from None
+        yield client
+
+
+def _import() -> Any:
+    try:
+        import distributed
+    except ImportError:
+        raise MissingExtra("distributed", "cluster", "a sweep on several workers") from None
+    return distributed
