@@ -60,7 +60,7 @@ class LaneMarch {
     }
 
     /// free_end: the tubes' angles at their distal ends. Only where active is anything kept in memory.
-    TACTR_ANY void run(const T* free_end, LaneMemory<R>& memory, const MaskOf<R>& active) {
+    TACTR_APART void run(const T* free_end, LaneMemory<R>& memory, const MaskOf<R>& active) {
         start(free_end);
         int stage = 0;
         for (int k = plan.section_count - 1; k >= 0; --k) {
@@ -231,7 +231,7 @@ class LaneMarch {
 
     // --- steps -----------------------------------------------------------------------------------------------------
 
-    TACTR_ANY void solve_stage(const LaneSection& section, const R& s, LaneMemory<R>& memory, const MaskOf<R>& active, int stage, T* rate) {
+    TACTR_APART void solve_stage(const LaneSection& section, const R& s, LaneMemory<R>& memory, const MaskOf<R>& active, int stage, T* rate) {
         StrainsOf<R> e;
         expect(section, memory, stage, e);
         found = found & solver.solve(section, s, z_, packing_, e);
@@ -329,7 +329,7 @@ class LaneMarch {
 
     /// Embedded estimates of order 5 and 3, combined to one of about order 8 (Hairer et al., section II.10); carried on to
     /// the base in the last of the derivatives.
-    TACTR_ANY void add_error(const R& h, R& total) {
+    TACTR_APART void add_error(const R& h, R& total) {
         R step_error[LANE_STATES], norm5(0.0), norm3(0.0);
         for (int n = 0; n < packing_.count; ++n) {
             R e5(0.0), e3(0.0);

@@ -119,7 +119,7 @@ class LaneNewton {
 
     /// Rough marches until Newton's next step leads close. Where a step does not keep its promise it is shortened, as for
     /// single configurations.
-    TACTR_ANY void approach() {
+    TACTR_APART void approach() {
         if constexpr (N > 0) {
             MaskOf<R> far = alive_;
             R bound(HUGE_VAL), size(0.0), fraction(1.0), from[SIZE], by[SIZE];
@@ -159,7 +159,7 @@ class LaneNewton {
     }
 
     /// Marches with derivatives, path and errors, until one is so near that its derivatives hold where the base is met.
-    TACTR_ANY void draft() {
+    TACTR_APART void draft() {
         MaskOf<R> open = alive_;
         for (int attempt = 0; attempt < MOST_DRAFTS && any(open); ++attempt) {
             LaneMarch<R, N + 1> march(plan_, numbers_, LaneMarchKind{FINE, true, true, true});
@@ -208,7 +208,7 @@ class LaneNewton {
     static constexpr double FAR = 0.9;  // of 1; derivatives are those a small step before
 
     /// Marches without derivatives, to the sections' full tolerance, until the base is met.
-    TACTR_ANY void check() {
+    TACTR_APART void check() {
         MaskOf<R> open = alive_;
         for (int attempt = 0; attempt < MOST_CHECKS && any(open); ++attempt) {
             LaneMarch<R, 0> march(plan_, numbers_, LaneMarchKind{SECTION_TOLERANCE, false, true, false});

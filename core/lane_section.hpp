@@ -49,7 +49,7 @@ class LaneSectionSolver {
     }
 
     /// From the packed states z at s to the strains, starting at e. Where false, none were found.
-    TACTR_ANY MaskOf<R> solve(const LaneSection& section, const R& s, const T* z, const Packing& packing, StrainsOf<R>& e) {
+    TACTR_APART MaskOf<R> solve(const LaneSection& section, const R& s, const T* z, const Packing& packing, StrainsOf<R>& e) {
         if (section_ != &section) enter(section);
         place(section, s);
         for (int a = 0; a < section.active_count; ++a) sine_cosine(z[3 * a], sine[a], cosine[a]);
@@ -90,7 +90,7 @@ class LaneSectionSolver {
     TubeRowsOf<R> rows_[LANE_TUBES];
     SectionFactorOf<R> factor_;
 
-    TACTR_ANY void enter(const LaneSection& section) {
+    TACTR_APART void enter(const LaneSection& section) {
         section_ = &section;
         for (int a = 0; a < section.active_count; ++a) {
             long n = section.piece[a].first;
@@ -144,7 +144,7 @@ class LaneSectionSolver {
         }
     }
 
-    TACTR_ANY void evaluate_wrenches(const LaneSection& section, const StrainsOf<R>& e) {
+    TACTR_APART void evaluate_wrenches(const LaneSection& section, const StrainsOf<R>& e) {
         for (int a = 0; a < section.active_count; ++a)
             elastic_wrench(tubes[a], value(cosine[a]), value(sine[a]), e, a, N_[a], M_[a]);
         for (int h = 0; h < section.hosted_count; ++h) {
@@ -202,7 +202,7 @@ class LaneSectionSolver {
     }
 
     /// Newton's full steps: near a solution, or far from any trouble. What needs more care is not for packs.
-    TACTR_ANY MaskOf<R> find_strains(const LaneSection& section, const T* z, const Packing& packing, StrainsOf<R>& e) {
+    TACTR_APART MaskOf<R> find_strains(const LaneSection& section, const T* z, const Packing& packing, StrainsOf<R>& e) {
         R total[4][1], tube[LANE_TUBES][2][1];
         MaskOf<R> found = true;
         for (int step = 0;; ++step) {
@@ -271,7 +271,7 @@ class LaneSectionSolver {
     }
 
     /// Strains with their derivatives by the implicit function theorem, and N_xy, M_xy with them.
-    TACTR_ANY void carry(const LaneSection& section, const T* z, const Packing& packing, const StrainsOf<R>& e) {
+    TACTR_APART void carry(const LaneSection& section, const T* z, const Packing& packing, const StrainsOf<R>& e) {
         if constexpr (K == 0) {
             copy_strains(e, section.active_count, strains);
             for (int a = 0; a < section.active_count; ++a)

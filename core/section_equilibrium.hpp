@@ -206,7 +206,7 @@ struct SectionFactorOf {
     R lu[4][4];                   // rows Qx, Qy, Sx, Sy; unit lower part below the diagonal
     R pivot[4];                   // inverse diagonal
 
-    TACTR_ANY MaskOf<R> factor(const TubeRowsOf<R>* J, int tubes, bool guided_section) {
+    TACTR_APART MaskOf<R> factor(const TubeRowsOf<R>* J, int tubes, bool guided_section) {
         count = tubes;
         guided = guided_section;
         R A[4][4] = {};
@@ -241,7 +241,7 @@ struct SectionFactorOf {
 
     /// Solves in place for L right-hand sides. In: total (Q, S), per tube (M_3, N_3). Out: (kx, ky, wx, wy), (tau, eta).
     template <int L>
-    TACTR_ANY void solve(R (*__restrict total)[L], R (*__restrict tube)[2][L]) const {
+    TACTR_APART void solve(R (*__restrict total)[L], R (*__restrict tube)[2][L]) const {
         if (!guided) {
             R x[4][L];
             for (int r = 0; r < 4; ++r)

@@ -44,7 +44,7 @@ class StageSums {
 
     /// The first count states at stage i (the step's end: i = STAGES), from those before the step and the rates at the
     /// stages before.
-    TACTR_ANY static void at(int i, const P& h, const T* before, const Rates& k, int count, T* z) {
+    TACTR_APART static void at(int i, const P& h, const T* before, const Rates& k, int count, T* z) {
         switch (i) {
             case 1: return add<1>(h, before, k, count, z);
             case 2: return add<2>(h, before, k, count, z);
