@@ -22,7 +22,7 @@ inline bool bends_alike(const TubePieceOf<C>& piece) {
 /// Strains of all tubes, and their N_xy and M_xy in R_b, from what they carry: (N_3, M_3) of tube a in state[3a + 1] and
 /// state[3a + 2], S and Q in sums (null: zero). False: a tube is pressed to nothing.
 template <class T, class Q>
-bool solve_bare_section(const TubeState<Q>* tubes, int count, bool guided, const T* cosine, const T* sine, const T* state,
+TACTR_ANY MaskOf<RealOf<T>> solve_bare_section(const TubeState<Q>* tubes, int count, bool guided, const T* cosine, const T* sine, const T* state,
                         const T* sums, StrainsOf<T>& e, T (*N_xy)[2], T (*M_xy)[2]) {
     Q bending(0.0);
     T shear(0.0), moment[2] = {T(0.0), T(0.0)}, rest[MAX_TUBES][2];
@@ -55,8 +55,8 @@ bool solve_bare_section(const TubeState<Q>* tubes, int count, bool guided, const
         M_xy[a][0] = e.kx * tube.EIx - rest[a][0];
         M_xy[a][1] = e.ky * tube.EIx - rest[a][1];
     }
-    const double check = value(e.kx) + value(e.ky) + value(e.wx) + value(e.wy) + value(e.tau[0]);
-    return value(shear) > 0.0 && std::isfinite(check + value(shear));
+    const auto check = value(e.kx) + value(e.ky) + value(e.wx) + value(e.wy) + value(e.tau[0]);
+    return (value(shear) > 0.0) & is_finite(check + value(shear));
 }
 
 }  // namespace tactr

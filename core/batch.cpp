@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "energetics.hpp"
+#include "lane_chunk.hpp"
 #include "sample.hpp"
 #include "sensitivity.hpp"
 #include "solve.hpp"
@@ -14,7 +15,7 @@ namespace tactr {
 
 namespace {
 
-constexpr std::size_t CHUNK = 64;
+constexpr std::size_t CHUNK = 256;
 constexpr int STABILITY_SAMPLES = 8;  // per step
 
 /// |u - u*| and |v - v*| of one tube at one station, where they are larger than found before.
@@ -37,14 +38,45 @@ void largest_strains(const RobotTables<double>& robot, const Solution& solution,
                 raise_strains(robot, t, stations[k] - solution.translation[t], samples.stations[k], worst + 6 * t);
 }
 
+constexpr int PACK = 4;                            // as wide as pack.hpp's
+constexpr int SINGLES = 64, DEVICE_CHUNK = 16384;  // configurations at once
+
+LanesUnit unit_of(const BatchRequest& request) {
+    Lanes lanes = request.lanes;
+    if (lanes == Lanes::widest) lanes = has_lanes(Lanes::avx2) ? Lanes::avx2 : Lanes::baseline;
+#ifdef TACTR_HAS_AVX2
+    if (lanes == Lanes::avx2) return {tactr_lanes_avx2, PACK, true, false};
+#endif
+    if (lanes == Lanes::baseline) return {tactr_lanes_baseline, PACK, true, false};
+    if (lanes == Lanes::single) return {tactr_lanes_single, SINGLES, false, false};
+    return {lanes == Lanes::device ? request.device : nullptr, DEVICE_CHUNK, false, true};
+}
+
 class BatchSolver {
   public:
     BatchSolver(const BatchRequest& request, const BatchResult& result)
         : in_(request), out_(result), tubes_(request.robots.front()->tubes.size()), tendons_(request.robots.front()->tendons.size()) {}
 
+    /// In packs as far as they go; what does not go straight there, one by one.
     void solve(std::size_t begin, std::size_t end) const {
+        std::vector<char> open(end - begin);
+        for (std::size_t i = begin; i < end; ++i) open[i - begin] = !in_.skip[i];
+        const LanesUnit unit = unit_of(in_);
+        if (unit.door) {
+            LaneChunk chunk(in_.tolerance, unit);
+            for (std::size_t i = begin; i < end; ++i)
+                if (open[i - begin])
+                    chunk.add(i, robot(i), in_.tension + i * tendons_, in_.rotation + i * tubes_, in_.translation + i * tubes_, in_.residual_tolerance[i]);
+            chunk.solve([&](std::size_t i, const Solution& solution, bool sure) {
+                StabilityReport report;
+                if (!sure && !(stability_of(robot(i).view(), solution, 0, report) && report.stable)) return;
+                out_.side_by_side[i] = 1;
+                write(i, solution);
+                open[i - begin] = 0;
+            });
+        }
         for (std::size_t i = begin; i < end; ++i)
-            if (!in_.skip[i]) solve_item(i);
+            if (open[i - begin]) solve_item(i);
     }
 
   private:
@@ -127,6 +159,13 @@ class BatchSolver {
 
 }  // namespace
 
+bool has_lanes(Lanes lanes) {
+#ifdef TACTR_HAS_AVX2
+    if (lanes == Lanes::avx2) return __builtin_cpu_supports("avx2");
+#endif
+    return lanes != Lanes::avx2;
+}
+
 bool strain_maxima(const RobotTables<double>& robot, const Solution& solution, const std::vector<double>& stations, double* worst) {
     Samples samples;
     if (!sample(robot.view(), solution, stations, samples)) return false;
@@ -136,7 +175,8 @@ bool strain_maxima(const RobotTables<double>& robot, const Solution& solution, c
 
 void solve_batch(const BatchRequest& request, const BatchResult& result, const std::function<bool()>& poll) {
     const BatchSolver solver(request, result);
-    in_chunks(request.count, CHUNK, request.threads, [&](std::size_t begin, std::size_t end) { solver.solve(begin, end); }, poll);
+    const std::size_t chunk = request.lanes == Lanes::device ? DEVICE_CHUNK : CHUNK;
+    in_chunks(request.count, chunk, request.threads, [&](std::size_t begin, std::size_t end) { solver.solve(begin, end); }, poll);
 }
 
 }  // namespace tactr

@@ -6,10 +6,18 @@
 #include <functional>
 #include <vector>
 
+#include "lanes_door.hpp"
 #include "robot_tables.hpp"
 #include "solution.hpp"
 
 namespace tactr {
+
+/// How configurations go side by side: not at all, with any processor's instructions, with AVX2's, with the widest there
+/// are; or as on a device, on this processor (single) or on the device itself.
+enum class Lanes { none, baseline, avx2, widest, single, device };
+
+/// Whether this processor and this build have it.
+bool has_lanes(Lanes lanes);
 
 /// Item i is row i of every array; rows of what is the same for all items are repeated by the caller, except robots and
 /// stations, of which one may stand for all.
@@ -23,6 +31,8 @@ struct BatchRequest {
     double tolerance = 1e-6;
     long most_work = Settings{}.most_work;
     int threads = 1;
+    Lanes lanes = Lanes::widest;
+    TactrLanesDoor device = nullptr;  // for Lanes::device
 };
 
 /// Where results go, row by row; what is null is not asked for. The caller fills them with NaN: rows of items without a
@@ -30,6 +40,7 @@ struct BatchRequest {
 struct BatchResult {
     std::int8_t* status = nullptr;  // Status
     std::uint8_t* unstable = nullptr;
+    std::uint8_t* side_by_side = nullptr;  // whether it was solved in a pack
     double *shortest_tendon = nullptr, *discretisation_error = nullptr, *residual = nullptr;
     double *tip_position = nullptr, *tip_quaternion = nullptr;
     double *tendon_length = nullptr;

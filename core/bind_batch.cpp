@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "batch.hpp"
@@ -42,6 +43,7 @@ tactr::BatchResult new_results(nb::dict& out, const tactr::BatchRequest& request
     tactr::BatchResult result;
     result.status = new_array<std::int8_t>(out, "status", {k}, -1);
     result.unstable = new_array<std::uint8_t>(out, "unstable", {k}, 0);
+    result.side_by_side = new_array<std::uint8_t>(out, "side_by_side", {k}, 0);
     result.shortest_tendon = new_array(out, "shortest_tendon", {k}, nan);
     result.discretisation_error = new_array(out, "discretisation_error", {k}, nan);
     result.residual = new_array(out, "residual", {k}, nan);
@@ -62,10 +64,21 @@ tactr::BatchResult new_results(nb::dict& out, const tactr::BatchRequest& request
     return result;
 }
 
+tactr::Lanes lanes_of(const std::string& name) {
+    const std::pair<const char*, tactr::Lanes> known[] = {{"none", tactr::Lanes::none}, {"baseline", tactr::Lanes::baseline},
+                                                         {"avx2", tactr::Lanes::avx2}, {"widest", tactr::Lanes::widest},
+                                                         {"single", tactr::Lanes::single}, {"device", tactr::Lanes::device}};
+    for (const auto& [known_name, lanes] : known)
+        if (name == known_name && tactr::has_lanes(lanes)) return lanes;
+    throw std::invalid_argument("no lanes called " + name + " on this machine");
+}
+
 nb::dict batch_of(const std::vector<const tactr::RobotTables<double>*>& robots, const Table& tension, const Table& rotation,
                      const Table& translation, const Vector& residual_tolerance, const Flags& skip, const Table& stations,
-                     double tolerance, long most_steps, const std::vector<std::string>& outputs, int threads) {
+                     double tolerance, long most_steps, const std::vector<std::string>& outputs, int threads,
+                  const std::string& lanes, std::uintptr_t device) {
     tactr::BatchRequest request;
+    request.device = reinterpret_cast<TactrLanesDoor>(device);
     request.robots = robots;
     request.count = tension.shape(0);
     if (robots.empty() || (robots.size() != 1 && robots.size() != request.count)) throw std::invalid_argument("one robot, or one for each item");
@@ -89,6 +102,7 @@ nb::dict batch_of(const std::vector<const tactr::RobotTables<double>*>& robots, 
     request.tolerance = tolerance;
     request.most_work = most_steps;
     request.threads = threads;
+    request.lanes = lanes_of(lanes);
     nb::dict out;
     const tactr::BatchResult result = new_results(out, request, outputs);
     bool interrupted = false;
@@ -116,6 +130,7 @@ nb::object maxima_of(const tactr::RobotTables<double>& robot, const tactr::Solut
 
 void tactr::bind_batch(nb::module_& m) {
     m.def("solve_batch", &batch_of, "robots"_a, "tension"_a, "rotation"_a, "translation"_a, "residual_tolerance"_a, "skip"_a,
-          "stations"_a, "tolerance"_a, "most_steps"_a, "outputs"_a, "threads"_a, "Many configurations from cold, a row for each.");
+          "stations"_a, "tolerance"_a, "most_steps"_a, "outputs"_a, "threads"_a, "lanes"_a = "widest",
+          "device"_a = 0, "Many configurations from cold, a row for each.");
     m.def("strain_maxima", &maxima_of, "robot"_a, "solution"_a, "stations"_a, "Largest |u - u*|, |v - v*| of every tube, (tubes, 6).");
 }

@@ -2,6 +2,10 @@
 // order 7. Coefficients: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, section II.5-6.
 #pragma once
 
+#include <utility>
+
+#include "device.hpp"
+
 namespace tactr::dp8 {
 
 constexpr int STAGES = 12;        // of the step itself
@@ -39,5 +43,34 @@ constexpr double D[4][DENSE_STAGES] = {
     {10.427508642579134, 0.0, 0.0, 0.0, 0.0, 242.28349177525817, 165.20045171727028, -374.5467547226902, -22.113666853125306, 7.733432668472264, -30.674084731089398, -9.332130526430229, 15.697238121770845, -31.139403219565178, -9.35292435884448, 35.81684148639408},
     {19.985053242002433, 0.0, 0.0, 0.0, 0.0, -387.0373087493518, -189.17813819516758, 527.8081592054236, -11.57390253995963, 6.8812326946963, -1.0006050966910838, 0.7777137798053443, -2.778205752353508, -60.19669523126412, 84.32040550667716, 11.99229113618279},
     {-25.69393346270375, 0.0, 0.0, 0.0, 0.0, -154.18974869023643, -231.5293791760455, 357.6391179106141, 93.40532418362432, -37.45832313645163, 104.0996495089623, 29.8402934266605, -43.53345659001114, 96.32455395918828, -39.17726167561544, -149.72683625798564}};
+
+// Entries by a number known only when the program runs. A graphics processor knows no constants but scalars.
+template <int J>
+struct Entry {
+    static constexpr double NODE = C[J], WEIGHT = B[J], THIRD = E3[J], FIFTH = E5[J];
+};
+
+#ifdef __CUDA_ARCH__
+#define TACTR_ENTRY(NAME, ARRAY)                                      \
+    template <int... J>                                               \
+    __device__ inline double picked_##NAME(int i, std::integer_sequence<int, J...>) { \
+        double found = 0.0;                                           \
+        ((found = i == J ? Entry<J>::NAME : found), ...);             \
+        return found;                                                 \
+    }
+#define TACTR_PICK(NAME, ARRAY) picked_##NAME(i, std::make_integer_sequence<int, STAGES>())
+TACTR_ENTRY(NODE, C)
+TACTR_ENTRY(WEIGHT, B)
+TACTR_ENTRY(THIRD, E3)
+TACTR_ENTRY(FIFTH, E5)
+#else
+#define TACTR_PICK(NAME, ARRAY) ARRAY[i]
+#endif
+TACTR_ANY inline double node(int i) { return TACTR_PICK(NODE, C); }
+TACTR_ANY inline double weight(int i) { return TACTR_PICK(WEIGHT, B); }
+TACTR_ANY inline double third(int i) { return TACTR_PICK(THIRD, E3); }
+TACTR_ANY inline double fifth(int i) { return TACTR_PICK(FIFTH, E5); }
+#undef TACTR_PICK
+#undef TACTR_ENTRY
 
 }  // namespace tactr::dp8

@@ -6,7 +6,7 @@ namespace tactr {
 
 /// v in the axes of the frame with quaternion q (q of unit length), from world axes.
 template <class T, class V>
-inline void to_frame(const T* q, const V v[3], T out[3]) {
+TACTR_ANY inline void to_frame(const T* q, const V v[3], T out[3]) {
     const T& w = q[0];
     const T tx = (q[2] * v[2] - q[3] * v[1]) * 2.0, ty = (q[3] * v[0] - q[1] * v[2]) * 2.0,
             tz = (q[1] * v[1] - q[2] * v[0]) * 2.0;
@@ -17,7 +17,7 @@ inline void to_frame(const T* q, const V v[3], T out[3]) {
 
 /// v in world axes, from the axes of the frame with quaternion q.
 template <class T>
-inline void to_world(const T* q, const T v[3], T* out) {
+TACTR_ANY inline void to_world(const T* q, const T v[3], T* out) {
     const T& w = q[0];
     const T tx = (q[2] * v[2] - q[3] * v[1]) * 2.0, ty = (q[3] * v[0] - q[1] * v[2]) * 2.0,
             tz = (q[1] * v[1] - q[2] * v[0]) * 2.0;
@@ -27,7 +27,7 @@ inline void to_world(const T* q, const T v[3], T* out) {
 }
 
 template <class T>
-inline void multiply_quaternions(const T* a, const T* b, T* out) {
+TACTR_ANY inline void multiply_quaternions(const T* a, const T* b, T* out) {
     out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
     out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
     out[2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
@@ -36,7 +36,7 @@ inline void multiply_quaternions(const T* a, const T* b, T* out) {
 
 /// Quaternion of a rotation about z.
 template <class T>
-inline void turn_about_z(const T& angle, T* q) {
+TACTR_ANY inline void turn_about_z(const T& angle, T* q) {
     sine_cosine(angle * 0.5, q[3], q[0]);
     q[1] = q[2] = T(0.0);
 }

@@ -6,7 +6,7 @@
 namespace tactr {
 
 template <class P, class C>
-inline void evaluate_polynomial(const C* c, int count, const P& d, P& f, P& df) {
+TACTR_ANY inline void evaluate_polynomial(const C* c, int count, const P& d, P& f, P& df) {
     f = P(c[count - 1]);
     df = P(0.0);
     for (int i = count - 2; i >= 0; --i) {
@@ -16,7 +16,7 @@ inline void evaluate_polynomial(const C* c, int count, const P& d, P& f, P& df) 
 }
 
 template <class P, class C>
-inline void evaluate_routing(const RoutingPieceOf<C>& piece, const P& sigma, P r[2], P dr[2]) {
+TACTR_ANY inline void evaluate_routing(const RoutingPieceOf<C>& piece, const P& sigma, P r[2], P dr[2]) {
     const P d = sigma - piece.start;
     P a, da, b, db;
     evaluate_polynomial(piece.a, piece.count_a, d, a, da);

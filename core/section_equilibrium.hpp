@@ -23,7 +23,8 @@ struct StrainsOf {
 using Strains = StrainsOf<double>;
 
 /// Only what belongs to the tubes present.
-inline void copy_strains(const Strains& from, int tubes, Strains& to) {
+template <class E>
+TACTR_ANY inline void copy_strains(const StrainsOf<E>& from, int tubes, StrainsOf<E>& to) {
     to.kx = from.kx;
     to.ky = from.ky;
     to.wx = from.wx;
@@ -43,9 +44,9 @@ struct TendonState {
 
 /// Elastic resultants of one tube, in R_b, at the given strains; c, s: cosine and sine of psi_i. An axial force acts
 /// at the neutral axis r = (x, y, 0): N_3 = EA ((v - v*) + (u - u*) x r)_3, and r x N_3 e3 adds to the moment.
-template <class T, class A, class C>
-inline void elastic_wrench(const TubeState<C>& tube, const A& c, const A& s, const Strains& e, int slot, T N[3], T M[3]) {
-    const double stretch = 1.0 + e.eta[slot];
+template <class T, class A, class C, class E>
+TACTR_ANY inline void elastic_wrench(const TubeState<C>& tube, const A& c, const A& s, const StrainsOf<E>& e, int slot, T N[3], T M[3]) {
+    const E stretch = 1.0 + e.eta[slot];
     const T ux = c * e.kx + s * e.ky - tube.ustar[0];
     const T uy = c * e.ky - s * e.kx - tube.ustar[1];
     T bx = ux * tube.EIx, by = uy * tube.EIy;
@@ -66,16 +67,18 @@ inline void elastic_wrench(const TubeState<C>& tube, const A& c, const A& s, con
 }
 
 /// Tendon data kept from the last evaluation, for the tangent stiffness and the tendon's length.
-struct TendonTangent {
-    double x, y;      // r in R_b
-    double t[3];      // unit tangent in R_b
-    double stiffness; // tension / |q|
-    double inverse;   // 1 / |q|
+template <class R>
+struct TendonTangentOf {
+    R x, y;      // r in R_b
+    R t[3];      // unit tangent in R_b
+    R stiffness; // tension / |q|
+    R inverse;   // 1 / |q|
 };
+using TendonTangent = TendonTangentOf<double>;
 
 /// Adds lambda t and lambda r x t of one tendon to its host's resultants, in R_b.
 template <class T, class A, class P, class E>
-inline void add_tendon(const TendonState<P>& tendon, const A& c, const A& s, const StrainsOf<E>& e, T N[3], T M[3],
+TACTR_ANY inline void add_tendon(const TendonState<P>& tendon, const A& c, const A& s, const StrainsOf<E>& e, T N[3], T M[3],
                        T& inverse, T direction[3], T r[2]) {
     const int i = tendon.slot;
     const E stretch = 1.0 + e.eta[i];
@@ -99,14 +102,17 @@ inline void add_tendon(const TendonState<P>& tendon, const A& c, const A& s, con
 }
 
 /// Tangent stiffness of one tube, d(N, M)/d(v, u) in R_b: symmetric, so only one of each pair is kept.
-struct TubeTangent {
-    double vv[6];     // xx, xy, xz, yy, yz, zz
-    double uu[6];
-    double vu[3][3];  // dN/du
+template <class R>
+struct TubeTangentOf {
+    R vv[6];     // xx, xy, xz, yy, yz, zz
+    R uu[6];
+    R vu[3][3];  // dN/du
 };
+using TubeTangent = TubeTangentOf<double>;
 
-inline void elastic_tangent(const TubeState<double>& tube, double c, double s, TubeTangent& K) {
-    K = TubeTangent{};
+template <class R>
+TACTR_ANY inline void elastic_tangent(const TubeState<R>& tube, const R& c, const R& s, TubeTangentOf<R>& K) {
+    K = TubeTangentOf<R>{};
     K.vv[0] = K.vv[3] = tube.GA;
     K.vv[5] = tube.EA;
     K.uu[0] = tube.EIx * c * c + tube.EIy * s * s;
@@ -114,7 +120,7 @@ inline void elastic_tangent(const TubeState<double>& tube, double c, double s, T
     K.uu[3] = tube.EIx * s * s + tube.EIy * c * c;
     K.uu[5] = tube.GJ;
     if (tube.plain) return;
-    const double x = c * tube.axis[0] - s * tube.axis[1], y = s * tube.axis[0] + c * tube.axis[1];
+    const R x = c * tube.axis[0] - s * tube.axis[1], y = s * tube.axis[0] + c * tube.axis[1];
     K.vu[2][0] = y * tube.EA;
     K.vu[2][1] = -x * tube.EA;
     K.uu[0] += y * y * tube.EA;
@@ -134,20 +140,21 @@ inline double elastic_energy(const TubeState<double>& tube, double c, double s, 
 }
 
 /// Adds G = lambda/|q| (I - t t^T), seen through r, to the tangent of the tendon's host.
-inline void add_tendon_tangent(const TendonTangent& tendon, TubeTangent& K) {
-    const double g = tendon.stiffness, x = tendon.x, y = tendon.y;
-    const double* t = tendon.t;
-    const double gx = g * t[0], gy = g * t[1];
-    const double xx = g - gx * t[0], xy = -gx * t[1], xz = -gx * t[2];
-    const double yy = g - gy * t[1], yz = -gy * t[2], zz = g - g * t[2] * t[2];
+template <class R>
+TACTR_ANY inline void add_tendon_tangent(const TendonTangentOf<R>& tendon, TubeTangentOf<R>& K) {
+    const R g = tendon.stiffness, x = tendon.x, y = tendon.y;
+    const R* t = tendon.t;
+    const R gx = g * t[0], gy = g * t[1];
+    const R xx = g - gx * t[0], xy = -gx * t[1], xz = -gx * t[2];
+    const R yy = g - gy * t[1], yz = -gy * t[2], zz = g - g * t[2] * t[2];
     K.vv[0] += xx;
     K.vv[1] += xy;
     K.vv[2] += xz;
     K.vv[3] += yy;
     K.vv[4] += yz;
     K.vv[5] += zz;
-    const double column[3] = {x * xy - y * xx, x * yy - y * xy, x * yz - y * xz};  // dF/du_3
-    const double z[3] = {xz, yz, zz};
+    const R column[3] = {x * xy - y * xx, x * yy - y * xy, x * yz - y * xz};  // dF/du_3
+    const R z[3] = {xz, yz, zz};
     for (int a = 0; a < 3; ++a) {
         K.vu[a][0] += y * z[a];
         K.vu[a][1] -= x * z[a];
@@ -162,11 +169,12 @@ inline void add_tendon_tangent(const TendonTangent& tendon, TubeTangent& K) {
 }
 
 /// Rows of one tube's Jacobian: d(N_x, N_y, M_x, M_y, M_3, N_3) / d(kx, ky, wx, wy, tau, eta), v = (1 + eta) (wx, wy, 1).
-struct TubeRows {
-    double Nx[6], Ny[6], Mx[6], My[6], M3[6], N3[6];
+template <class R>
+struct TubeRowsOf {
+    R Nx[6], Ny[6], Mx[6], My[6], M3[6], N3[6];
 
-    void set(const TubeTangent& K, double wx, double wy, double eta) {
-        const double f = 1.0 + eta;
+    TACTR_ANY void set(const TubeTangentOf<R>& K, const R& wx, const R& wy, const R& eta) {
+        const R f = 1.0 + eta;
         row(Nx, K.vu[0][0], K.vu[0][1], K.vu[0][2], K.vv[0], K.vv[1], K.vv[2], wx, wy, f);
         row(Ny, K.vu[1][0], K.vu[1][1], K.vu[1][2], K.vv[1], K.vv[3], K.vv[4], wx, wy, f);
         row(N3, K.vu[2][0], K.vu[2][1], K.vu[2][2], K.vv[2], K.vv[4], K.vv[5], wx, wy, f);
@@ -176,7 +184,7 @@ struct TubeRows {
     }
 
   private:
-    static void row(double* r, double ux, double uy, double uz, double vx, double vy, double vz, double wx, double wy, double f) {
+    TACTR_ANY static void row(R* r, const R& ux, const R& uy, const R& uz, const R& vx, const R& vy, const R& vz, const R& wx, const R& wy, const R& f) {
         r[0] = ux;
         r[1] = uy;
         r[2] = f * vx;
@@ -186,24 +194,29 @@ struct TubeRows {
     }
 };
 
-/// The section's Jacobian with every tube's 2x2 block (tau, eta) eliminated: a 4x4 system, factored.
-struct SectionFactor {
-    int count, guided;
-    double inverse[MAX_TUBES][2][2];   // of d(M_3, N_3)/d(tau, eta)
-    double coupling[MAX_TUBES][2][4];  // d(M_3, N_3)/d(kx, ky, wx, wy)
-    double lift[MAX_TUBES][4][2];      // d(Q, S)/d(tau, eta) times inverse
-    double lu[4][4];                   // rows Qx, Qy, Sx, Sy; unit lower part below the diagonal
-    double pivot[4];                   // inverse diagonal
+using TubeRows = TubeRowsOf<double>;
 
-    bool factor(const TubeRows* J, int tubes, bool guided_section) {
+/// The section's Jacobian with every tube's 2x2 block (tau, eta) eliminated: a 4x4 system, factored.
+template <class R>
+struct SectionFactorOf {
+    int count, guided;
+    R inverse[MAX_TUBES][2][2];   // of d(M_3, N_3)/d(tau, eta)
+    R coupling[MAX_TUBES][2][4];  // d(M_3, N_3)/d(kx, ky, wx, wy)
+    R lift[MAX_TUBES][4][2];      // d(Q, S)/d(tau, eta) times inverse
+    R lu[4][4];                   // rows Qx, Qy, Sx, Sy; unit lower part below the diagonal
+    R pivot[4];                   // inverse diagonal
+
+    TACTR_APART MaskOf<R> factor(const TubeRowsOf<R>* J, int tubes, bool guided_section) {
         count = tubes;
         guided = guided_section;
-        double A[4][4] = {};
+        R A[4][4] = {};
+        MaskOf<R> regular = true;
         for (int i = 0; i < tubes; ++i) {
-            const double a = J[i].M3[4], b = J[i].M3[5], c = J[i].N3[4], d = J[i].N3[5];
-            const double determinant = a * d - b * c;
-            if (!(determinant > 0.0)) return false;
-            const double f = 1.0 / determinant;
+            const R a = J[i].M3[4], b = J[i].M3[5], c = J[i].N3[4], d = J[i].N3[5];
+            const R determinant = a * d - b * c;
+            regular = regular & (determinant > 0.0);
+            if (none(regular)) return regular;
+            const R f = 1.0 / determinant;
             inverse[i][0][0] = d * f;
             inverse[i][0][1] = -b * f;
             inverse[i][1][0] = -c * f;
@@ -213,35 +226,35 @@ struct SectionFactor {
                 coupling[i][0][k] = J[i].M3[k];
                 coupling[i][1][k] = J[i].N3[k];
             }
-            const double* rows[4] = {J[i].Mx, J[i].My, J[i].Nx, J[i].Ny};
+            const R* rows[4] = {J[i].Mx, J[i].My, J[i].Nx, J[i].Ny};
             for (int r = 0; r < 4; ++r) {
-                const double p = rows[r][4], q = rows[r][5];
-                const double u = p * inverse[i][0][0] + q * inverse[i][1][0];
-                const double v = p * inverse[i][0][1] + q * inverse[i][1][1];
+                const R p = rows[r][4], q = rows[r][5];
+                const R u = p * inverse[i][0][0] + q * inverse[i][1][0];
+                const R v = p * inverse[i][0][1] + q * inverse[i][1][1];
                 lift[i][r][0] = u;
                 lift[i][r][1] = v;
                 for (int k = 0; k < 4; ++k) A[r][k] += rows[r][k] - u * J[i].M3[k] - v * J[i].N3[k];
             }
         }
-        return guided_section || eliminate(A);
+        return guided_section ? regular : regular & eliminate(A);
     }
 
     /// Solves in place for L right-hand sides. In: total (Q, S), per tube (M_3, N_3). Out: (kx, ky, wx, wy), (tau, eta).
     template <int L>
-    void solve(double (*__restrict total)[L], double (*__restrict tube)[2][L]) const {
+    TACTR_APART void solve(R (*__restrict total)[L], R (*__restrict tube)[2][L]) const {
         if (!guided) {
-            double x[4][L];
+            R x[4][L];
             for (int r = 0; r < 4; ++r)
                 for (int l = 0; l < L; ++l) x[r][l] = total[r][l];
             for (int i = 0; i < count; ++i)
                 for (int r = 0; r < 4; ++r) {
-                    const double f = lift[i][r][0], g = lift[i][r][1];
+                    const R f = lift[i][r][0], g = lift[i][r][1];
                     for (int l = 0; l < L; ++l) x[r][l] -= f * tube[i][0][l] + g * tube[i][1][l];
                 }
             eliminated(x);
             for (int i = 0; i < count; ++i)
                 for (int a = 0; a < 2; ++a) {
-                    const double *c = coupling[i][a], c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3];
+                    const R *c = coupling[i][a], c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3];
                     for (int l = 0; l < L; ++l)
                         tube[i][a][l] -= (c0 * x[0][l] + c1 * x[1][l]) + (c2 * x[2][l] + c3 * x[3][l]);
                 }
@@ -249,9 +262,9 @@ struct SectionFactor {
                 for (int l = 0; l < L; ++l) total[r][l] = x[r][l];
         }
         for (int i = 0; i < count; ++i) {
-            const double a = inverse[i][0][0], b = inverse[i][0][1], c = inverse[i][1][0], d = inverse[i][1][1];
+            const R a = inverse[i][0][0], b = inverse[i][0][1], c = inverse[i][1][0], d = inverse[i][1][1];
             for (int l = 0; l < L; ++l) {
-                const double m = tube[i][0][l], n = tube[i][1][l];
+                const R m = tube[i][0][l], n = tube[i][1][l];
                 tube[i][0][l] = a * m + b * n;
                 tube[i][1][l] = c * m + d * n;
             }
@@ -261,36 +274,64 @@ struct SectionFactor {
   private:
     /// Forward and backward substitution.
     template <int L>
-    void eliminated(double (&x)[4][L]) const {
+    TACTR_ANY void eliminated(R (&x)[4][L]) const {
         for (int r = 1; r < 4; ++r)
             for (int k = 0; k < r; ++k) {
-                const double f = lu[r][k];
+                const R f = lu[r][k];
                 for (int l = 0; l < L; ++l) x[r][l] -= f * x[k][l];
             }
         for (int r = 3; r >= 0; --r) {
             for (int k = r + 1; k < 4; ++k) {
-                const double f = lu[r][k];
+                const R f = lu[r][k];
                 for (int l = 0; l < L; ++l) x[r][l] -= f * x[k][l];
             }
-            const double f = pivot[r];
+            const R f = pivot[r];
             for (int l = 0; l < L; ++l) x[r][l] *= f;
         }
     }
 
     /// Gaussian elimination without pivoting: the matrix is positive definite up to strains of the order 1e-4.
-    bool eliminate(double A[4][4]) {
+    TACTR_ANY MaskOf<R> eliminate(R A[4][4]) {
+        MaskOf<R> regular = true;
         for (int k = 0; k < 4; ++k) {
-            if (!(A[k][k] > 0.0)) return false;
+            regular = regular & (A[k][k] > 0.0);
+            if (none(regular)) return regular;
             pivot[k] = 1.0 / A[k][k];
             for (int r = k + 1; r < 4; ++r) {
-                const double f = A[r][k] * pivot[k];
+                const R f = A[r][k] * pivot[k];
                 lu[r][k] = f;
                 for (int c = k + 1; c < 4; ++c) A[r][c] -= f * A[k][c];
             }
             for (int c = k; c < 4; ++c) lu[k][c] = A[k][c];
         }
-        return true;
+        return regular;
     }
 };
+using SectionFactor = SectionFactorOf<double>;
+
+/// With parameters and strains held fixed in R_b, only psi moves a tube's N and M. They turn with it:
+/// d(N, M)/dpsi = e3 x (N, M) - K (e3 x (v, u)).
+template <class R>
+TACTR_ANY inline void turning_rates(const TubeTangentOf<R>& K, const R N[3], const R M[3], const StrainsOf<R>& e, int slot, R rate[6]) {
+    const R f = 1.0 + e.eta[slot];
+    const R vx = -f * e.wy, vy = f * e.wx, ux = -e.ky, uy = e.kx;
+    rate[0] = -N[1] - (K.vv[0] * vx + K.vv[1] * vy + K.vu[0][0] * ux + K.vu[0][1] * uy);
+    rate[1] = N[0] - (K.vv[1] * vx + K.vv[3] * vy + K.vu[1][0] * ux + K.vu[1][1] * uy);
+    rate[2] = -(K.vv[2] * vx + K.vv[4] * vy + K.vu[2][0] * ux + K.vu[2][1] * uy);
+    rate[3] = -M[1] - (K.vu[0][0] * vx + K.vu[1][0] * vy + K.uu[0] * ux + K.uu[1] * uy);
+    rate[4] = M[0] - (K.vu[0][1] * vx + K.vu[1][1] * vy + K.uu[1] * ux + K.uu[3] * uy);
+    rate[5] = -(K.vu[0][2] * vx + K.vu[1][2] * vy + K.uu[2] * ux + K.uu[4] * uy);
+}
+
+/// Change of a tendon's |q| with a change of the strains, its tangent held.
+template <class R>
+TACTR_ANY inline R stretching(const TendonTangentOf<R>& tendon, const StrainsOf<R>& e, int slot, const R& kx, const R& ky,
+                              const R& wx, const R& wy, const R& twist, const R& stretch) {
+    const R f = 1.0 + e.eta[slot];
+    const R x = f * wx + e.wx * stretch - twist * tendon.y;
+    const R y = f * wy + e.wy * stretch + twist * tendon.x;
+    const R z = stretch + kx * tendon.y - ky * tendon.x;
+    return tendon.t[0] * x + tendon.t[1] * y + tendon.t[2] * z;
+}
 
 }  // namespace tactr

@@ -382,11 +382,7 @@ class SectionSolver {
         for (int h = 0; h < section.hosted.end - section.hosted.begin; ++h) {
             TendonTangent& tendon = tendon_tangents[h];
             const int a = tendons[h].slot;
-            const double twist = tube[a][0][0], stretch = tube[a][1][0], f = 1.0 + e.eta[a];
-            const double x = f * total[2][0] + e.wx * stretch - twist * tendon.y;
-            const double y = f * total[3][0] + e.wy * stretch + twist * tendon.x;
-            const double z = stretch + total[0][0] * tendon.y - total[1][0] * tendon.x;
-            const double longer = tendon.t[0] * x + tendon.t[1] * y + tendon.t[2] * z;
+            const double longer = stretching(tendon, e, a, total[0][0], total[1][0], total[2][0], total[3][0], tube[a][0][0], tube[a][1][0]);
             tendon.inverse /= 1.0 + longer * tendon.inverse;
         }
     }
@@ -472,19 +468,11 @@ class SectionSolver {
         for (int l = 0; l < WIDTH; ++l) out.d[l] = rate[l];
     }
 
-    /// With parameters and strains held fixed in R_b, only psi moves N and M. They turn with the tube:
-    /// d(N, M)/dpsi = e3 x (N, M) - K (e3 x (v, u)).
+    /// What only psi moves, see turning_rates.
     void lanes_of_turning(const Section<P>& section, const T* z, const Strains& e, WrenchLanes* fixed) const {
         for (int a = 0; a < section.active_count; ++a) {
-            const TubeTangent& K = tangent_[a];
-            const double f = 1.0 + e.eta[a];
-            const double vx = -f * e.wy, vy = f * e.wx, ux = -e.ky, uy = e.kx;
-            const double rate[6] = {-N_[a][1] - (K.vv[0] * vx + K.vv[1] * vy + K.vu[0][0] * ux + K.vu[0][1] * uy),
-                                    N_[a][0] - (K.vv[1] * vx + K.vv[3] * vy + K.vu[1][0] * ux + K.vu[1][1] * uy),
-                                    -(K.vv[2] * vx + K.vv[4] * vy + K.vu[2][0] * ux + K.vu[2][1] * uy),
-                                    -M_[a][1] - (K.vu[0][0] * vx + K.vu[1][0] * vy + K.uu[0] * ux + K.uu[1] * uy),
-                                    M_[a][0] - (K.vu[0][1] * vx + K.vu[1][1] * vy + K.uu[1] * ux + K.uu[3] * uy),
-                                    -(K.vu[0][2] * vx + K.vu[1][2] * vy + K.uu[2] * ux + K.uu[4] * uy)};
+            double rate[6];
+            turning_rates(tangent_[a], N_[a], M_[a], e, a, rate);
             const T psi = z[3 * a];
             for (int r = 0; r < 6; ++r)
                 for (int l = 0; l < WIDTH; ++l) fixed[a][r][l] = rate[r] * psi.d[l];

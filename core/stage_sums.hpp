@@ -23,15 +23,28 @@ struct SparseRow {
     }
 };
 
-/// T: states, P: step lengths.
-template <class T, class P>
+template <int I>
+struct StageRow {
+    static constexpr SparseRow ROW = SparseRow(I == dp8::STAGES ? dp8::B : dp8::A[I], I);
+};
+
+/// One of them: scalars, because a graphics processor knows no constants that are more.
+template <int I, int J>
+struct StageEntry {
+    static constexpr int STAGE = StageRow<I>::ROW.stage[J];
+    static constexpr double WEIGHT = StageRow<I>::ROW.weight[J];
+};
+
+/// T: states, P: step lengths; at most WIDE states side by side, rates of ROWS stages.
+template <class T, class P, int WIDE = STATES, int ROWS = dp8::DENSE_STAGES>
 class StageSums {
   public:
-    using Rates = T[dp8::DENSE_STAGES][STATES];
+    using R = RealOf<T>;
+    using Rates = T[ROWS][WIDE];
 
     /// The first count states at stage i (the step's end: i = STAGES), from those before the step and the rates at the
     /// stages before.
-    static void at(int i, const P& h, const T* before, const Rates& k, int count, T* z) {
+    TACTR_APART static void at(int i, const P& h, const T* before, const Rates& k, int count, T* z) {
         switch (i) {
             case 1: return add<1>(h, before, k, count, z);
             case 2: return add<2>(h, before, k, count, z);
@@ -50,27 +63,26 @@ class StageSums {
     }
 
   private:
-    static constexpr int LANES = LaneCount<T>::value;
+    static constexpr int LANES = static_cast<int>(sizeof(T) / sizeof(R)) - 1;
 
     template <int I>
-    static void add(const P& h, const T* before, const Rates& k, int count, T* z) {
-        static constexpr SparseRow ROW(I == dp8::STAGES ? dp8::B : dp8::A[I], I);
-        add_row<ROW>(h, before, k, count, z, std::make_integer_sequence<int, ROW.count>());
+    TACTR_ANY static void add(const P& h, const T* before, const Rates& k, int count, T* z) {
+        add_row<I>(h, before, k, count, z, std::make_integer_sequence<int, StageRow<I>::ROW.count>());
     }
 
     /// z = before + h * sum of weight * k; the lanes of a state lie behind its value, so that one loop runs over all.
-    template <const SparseRow& ROW, int... J>
-    static void add_row(const P& h, const T* before, const Rates& k, int count, T* z, std::integer_sequence<int, J...>) {
-        const double length = value(h);
+    template <int I, int... J>
+    TACTR_ANY static void add_row(const P& h, const T* before, const Rates& k, int count, T* z, std::integer_sequence<int, J...>) {
+        const R length = value(h);
         const int width = count * (LANES + 1);
-        const double* from = reinterpret_cast<const double*>(before);
-        double* to = reinterpret_cast<double*>(z);
-        const double* rates = reinterpret_cast<const double*>(k);
-        constexpr int STRIDE = STATES * (LANES + 1);
-        for (int n = 0; n < width; ++n) to[n] = from[n] + length * ((rates[ROW.stage[J] * STRIDE + n] * ROW.weight[J]) + ...);
-        if constexpr (!std::is_same_v<P, double>)
+        const R* from = reinterpret_cast<const R*>(before);
+        R* to = reinterpret_cast<R*>(z);
+        const R* rates = reinterpret_cast<const R*>(k);
+        constexpr int STRIDE = WIDE * (LANES + 1);
+        for (int n = 0; n < width; ++n) to[n] = from[n] + length * ((rates[StageEntry<I, J>::STAGE * STRIDE + n] * StageEntry<I, J>::WEIGHT) + ...);
+        if constexpr (!std::is_same_v<P, R>)
             for (int n = 0; n < count; ++n) {
-                const double rate = ((k[ROW.stage[J]][n].v * ROW.weight[J]) + ...);
+                const double rate = ((k[StageEntry<I, J>::STAGE][n].v * StageEntry<I, J>::WEIGHT) + ...);
                 for (int l = 0; l < LANES; ++l) z[n].d[l] += rate * h.d[l];
             }
     }

@@ -102,7 +102,7 @@ struct Packing {
     int count = 0, fed_back = 0;           // all; those on which rates depend: all but p, which stands last
     int sums = -1, frame = -1, path = -1;  // where the shared states start; -1: absent
 
-    void set(const int* active, int active_count, bool guided, const MarchOptions& options) {
+    TACTR_ANY void set(const int* active, int active_count, bool guided, const MarchOptions& options) {
         count = 0;
         for (int a = 0; a < active_count; ++a) {
             index[count++] = PSI + active[a];
@@ -117,7 +117,7 @@ struct Packing {
     }
 
   private:
-    int append(int first, int number) {
+    TACTR_ANY int append(int first, int number) {
         const int place = count;
         for (int c = 0; c < number; ++c) index[count++] = first + c;
         return place;

@@ -17,7 +17,7 @@ struct TubeState {
 
 /// The tube at sigma. shape_scale multiplies the rest strains u* and v* - e3.
 template <class C, class R>
-inline TubeState<C> tube_at(const TubePieceOf<R>& piece, const C& sigma, double shape_scale) {
+TACTR_ANY inline TubeState<C> tube_at(const TubePieceOf<R>& piece, const C& sigma, double shape_scale) {
     C q[QUANTITIES];
     for (int i = 0; i < QUANTITIES; ++i) q[i] = C(piece.c[piece.count - 1][i]);
     const C d = sigma - piece.start;
@@ -30,8 +30,8 @@ inline TubeState<C> tube_at(const TubePieceOf<R>& piece, const C& sigma, double 
 }
 
 template <class C>
-inline TubeState<double> values_of(const TubeState<C>& t) {
-    TubeState<double> r;
+TACTR_ANY inline TubeState<RealOf<C>> values_of(const TubeState<C>& t) {
+    TubeState<RealOf<C>> r;
     r.EIx = value(t.EIx);
     r.EIy = value(t.EIy);
     r.GJ = value(t.GJ);

@@ -147,6 +147,8 @@ def solve_batch(
     most_steps: int,
     outputs: list[str],
     threads: int,
+    lanes: str = ...,
+    device: int = ...,
 ) -> dict[str, np.ndarray]:
     """Many configurations from cold, a row for each."""
 

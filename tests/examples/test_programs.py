@@ -80,6 +80,12 @@ def test_the_study_file_of_the_sweeps_page(tmp_path):
     assert tactr.load_study(tmp_path / "study.yaml").count == 800_000
 
 
+def test_batch():
+    result = runpy.run_path(str(ROOT / "examples" / "batch.py"))
+    assert result["reach"] == pytest.approx([0.08691377, 0.08302846, 0.05715621], abs=1e-6)
+    assert (result["softness"][1:] < result["softness"][:-1]).all()
+
+
 def test_the_python_of_the_readme(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     code, questions = blocks("python")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from tactr import _core
+from tactr.batch.cuda import cuda_door
 from tactr.batch.designs import Design, designs_of
 from tactr.batch.items import Given, Items, items_of
 from tactr.batch.pulled import fill_from
@@ -48,7 +49,8 @@ def solve_batch(
     parameters: paths as in ``Shape.sensitivity``, such as "tubes.outer.length", to (k,) arrays or numbers in
     the units of the description: a design study. outputs: of "tip" (always there), "shape", "jacobian",
     "compliance", "stability", "energy", "strain"; see ``Batch``. stations: as in ``tactr.solve``, for "shape"
-    and "strain". threads: None for as many as there are cores; results do not depend on it.
+    and "strain". threads: None for as many as there are cores; results do not depend on it. device: "cuda"
+    for a graphics processor, with a warning and on the CPU where there is none.
 
     Nothing is raised for an item that fails or is invalid: see ``Batch.status``. Items pulled by
     displacements go one by one through the solver behind ``tactr.solve``, on one core. Raises RobotError for
@@ -64,9 +66,9 @@ def solve_batch(
     )
     asked = _outputs(outputs)
     accuracy = check.real("tolerance", tolerance, "m", above=0)
-    check.choice("device", device, ("cpu",))
+    door = None if check.choice("device", device, ("cpu", "cuda")) == "cpu" else cuda_door()
     job = _Job(items, asked, stations, accuracy)
-    return job.run(_threads(threads))
+    return job.run(_threads(threads), door)
 
 
 class _Job:
@@ -83,11 +85,11 @@ class _Job:
             self.invalid[int(i)] = error
         self.usable = [design for design in self.designs if isinstance(design, Design)]
 
-    def run(self, threads: int) -> Batch:
+    def run(self, threads: int, door: int | None) -> Batch:
         rows = {field: self._rows(field) for field in ("tension", "rotation", "translation")}
         places, too_short = self._stations(rows["translation"])
         plain = self._plain(rows) & ~too_short
-        found = self._solved(rows, places, ~plain, threads)
+        found = self._solved(rows, places, ~plain, threads, door)
         status = _statuses(found)
         tension = np.where(plain[:, None], rows["tension"] * self._scale(), np.nan)
         found["tension"] = tension
@@ -159,7 +161,12 @@ class _Job:
         return np.minimum(s, reach[:, None]), s[-1] > reach * (1.0 + ROUNDING)
 
     def _solved(
-        self, rows: dict[str, np.ndarray], places: np.ndarray, skip: np.ndarray, threads: int
+        self,
+        rows: dict[str, np.ndarray],
+        places: np.ndarray,
+        skip: np.ndarray,
+        threads: int,
+        door: int | None,
     ) -> dict[str, np.ndarray]:
         stand_in = self.usable[0].core if self.usable else _core_of(self.items.base, self.tolerance)
         cores = [design.core if isinstance(design, Design) else stand_in for design in self.designs]
@@ -176,6 +183,8 @@ class _Job:
             MOST_STEPS,
             [name for name in self.outputs if name != "tip"],
             threads,
+            "widest" if door is None else "device",
+            door or 0,
         )
 
     def _alone(self, i: int, found: dict[str, np.ndarray], places: np.ndarray, too_short: bool) -> int:
