@@ -34,7 +34,9 @@ from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
 
 RESIDUAL_SHARE = 0.05  # of the tolerance at the tip may come from the angle by which the base is missed
-HELD_SHARE = 0.2  # of the tolerance, in solves at held tensions: an error in a length becomes one in a displacement
+HELD_SHARE = (
+    0.2  # of the tolerance, in solves at held tensions: an error in a length becomes one in a displacement
+)
 LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e-11, 1e-6  # rad: rounding below, carelessness above
 
 
