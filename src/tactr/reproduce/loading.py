@@ -47,8 +47,8 @@ def run() -> Experiment:
                 _graph("IT, with OT at 3 N", 1, 0, up[STEPS:], loading[STEPS:], unloading[STEPS:], then),
             ),
             (
-                _error_graph("OT alone: from loading without friction", 0, first),
-                _error_graph("IT, with OT at 3 N: from loading without friction", 1, then),
+                _error_graph("OT: from the model without friction", 0, first),
+                _error_graph("IT: from the model without friction", 1, then),
             ),
         ),
         "Above: the tip over the tension that is changed, loading and unloading, without friction and with "
