@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from time import perf_counter
 
 import numpy as np
@@ -37,6 +37,7 @@ def drive(
     state: DriveState | None = None,
     tolerance: float = 1e-6,
     stations: int | Sequence[float] | np.ndarray = 101,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Driven:
     """Shapes along a path of actuation, with friction of tendons and tubes and backlash.
 
@@ -47,15 +48,16 @@ def drive(
     where tubes meet without friction torques.
     What friction and backlash leave behind comes back in the result's states: nothing is hidden in the
     robot. tolerance, stations: as in ``solve``. Every way between two points is cut into steps in which the
-    free end turns by less than 0.1 rad. A result always comes back: look at ``converged``. Model and
-    assumptions: docs/friction.md, docs/tube_friction.md. Raises RobotError.
+    free end turns by less than 0.3 rad. progress: called with points done and their number. A result always
+    comes back: look at ``converged``. Model and assumptions: docs/friction.md, docs/tube_friction.md. Raises
+    RobotError.
     """
     points = path_points(robot, path)
     _check(points[0])
     prepared = Prepared(points[0], tolerance=tolerance, stations=stations)
     if state is not None:
         state.fits(robot)
-    return _Driver(prepared, [Actuators.of(p) for p in points]).run(state)
+    return _Driver(prepared, [Actuators.of(p) for p in points]).run(state, progress)
 
 
 def _check(robot: Robot) -> None:
@@ -78,7 +80,7 @@ class _Driver:
         self._near: Settled | None = None
         self._at: Actuators | None = None  # passed on by the plays, at the last shape
 
-    def run(self, state: DriveState | None) -> Driven:
+    def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
         shapes, states, failed, steps = [], [], [], []
         held = np.zeros(len(self._points), dtype=int)
         tendons = len(self._robot.tendons)
@@ -95,6 +97,8 @@ class _Driver:
             held[k] = self._near.held if good and self._near is not None else 0
             steps.append(max(count, 1))
             failed.append("" if good and shapes[-1].converged else self._why(shapes[-1]))
+            if progress is not None:
+                progress(k + 1, len(self._points))
         return Driven(
             tuple(shapes), tuple(states), tuple(failed), tuple(steps), heats, creeps, tube_heats, held
         )
