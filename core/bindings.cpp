@@ -181,7 +181,8 @@ tactr::Solution blank(const PreparedRobot& robot, const Vector& tension, const V
 }
 
 tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
-                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay, long most_steps) {
+                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay, long most_steps,
+                      int patience) {
     tactr::Solution solution = blank(robot, tension, rotation, translation);
     nb::gil_scoped_release release;
     const tactr::Robot view = robot.view();
@@ -192,6 +193,7 @@ tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const V
     settings.fixed_steps = steps;
     settings.stay = stay;
     settings.most_work = most_steps;
+    settings.patience = patience;
     tactr::solve(view, actuation, settings, guess, solution);
     return solution;
 }
@@ -461,6 +463,7 @@ NB_MODULE(_core, m) {
 
     m.def("solve", &solve, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
           "guess"_a = nb::none(), "steps"_a = 0, "stay"_a = false, "most_steps"_a = tactr::Settings{}.most_work,
+          "patience"_a = tactr::Settings{}.patience,
           "Free-end unknowns, residuals and tip of one robot at one actuation.");
     m.def("branches", &branches, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
           "samples"_a = 0, "All equilibria found at one actuation, stable ones first, then by energy.");
