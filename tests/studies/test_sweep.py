@@ -34,8 +34,9 @@ def test_every_row_is_a_solve(done, tendon_study):
             rotation={"inner": float(row["tubes.inner.rotation"])},
         )
         assert done.status_names[int(row.status)] == shape.status.value
-        assert row.tip_position.values == pytest.approx(shape.tip_position, abs=1e-12)
-        assert row.tip_quaternion.values == pytest.approx(shape.tip_quaternion, abs=1e-12)
+        # a batch's solves go side by side and round otherwise
+        assert row.tip_position.values == pytest.approx(shape.tip_position, abs=1e-10)
+        assert row.tip_quaternion.values == pytest.approx(shape.tip_quaternion, abs=1e-9)
         assert float(row.energy) == pytest.approx(shape.energy, rel=1e-9)
         assert bool(row.stable) == shape.stability.stable
         assert float(row.stability_margin) == pytest.approx(shape.stability.margin, rel=1e-9)

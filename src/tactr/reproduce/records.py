@@ -122,14 +122,13 @@ class Panel:
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """A line of a graph. dashed, thin: how it is drawn."""
+    """A line of a graph; friction, once it is modelled, is one line more."""
 
     label: str
     x: np.ndarray
     y: np.ndarray
     colour: str
     dashed: bool = False
-    thin: bool = False
 
 
 @dataclass(frozen=True)
