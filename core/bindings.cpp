@@ -180,6 +180,13 @@ tactr::Solution blank(const PreparedRobot& robot, const Vector& tension, const V
     return solution;
 }
 
+tactr::Settings settings_of(double tolerance, double residual_tolerance) {
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    return settings;
+}
+
 tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
                       double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay, long most_steps,
                       int patience) {
@@ -187,9 +194,7 @@ tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const V
     nb::gil_scoped_release release;
     const tactr::Robot view = robot.view();
     const tactr::Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
-    tactr::Settings settings;
-    settings.tolerance = tolerance;
-    settings.residual_tolerance = residual_tolerance;
+    tactr::Settings settings = settings_of(tolerance, residual_tolerance);
     settings.fixed_steps = steps;
     settings.stay = stay;
     settings.most_work = most_steps;
@@ -204,9 +209,7 @@ std::vector<tactr::Solution> branches(const PreparedRobot& robot, const Vector& 
     nb::gil_scoped_release release;
     const tactr::Robot view = robot.view();
     const tactr::Actuation<double> actuation{empty.tension.data(), empty.rotation.data(), empty.translation.data(), 1.0, 1.0};
-    tactr::Settings settings;
-    settings.tolerance = tolerance;
-    settings.residual_tolerance = residual_tolerance;
+    tactr::Settings settings = settings_of(tolerance, residual_tolerance);
     return tactr::branches(view, actuation, settings, samples, empty);
 }
 
@@ -387,9 +390,7 @@ nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const 
         at_end.push_back(row[9] != 0.0);
     }
     const tactr::Solution empty = blank(robot, tension, rotation, translation);
-    tactr::Settings settings;
-    settings.tolerance = tolerance;
-    settings.residual_tolerance = residual_tolerance;
+    tactr::Settings settings = settings_of(tolerance, residual_tolerance);
     settings.stay = stay;
     auto found = std::make_unique<tactr::FrictionStep>();
     {

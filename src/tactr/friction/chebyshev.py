@@ -23,6 +23,12 @@ SLOPE = np.array([np.append(chebyshev.chebder(row), 0.0) for row in _UNIT]).T
 INTEGRAL = np.array([chebyshev.chebint(row, lbnd=-1.0) for row in _UNIT]).T
 """From coefficients to those, one more, of the integral from -1."""
 
+DERIVATIVE = chebyshev.chebvander(POINTS, ORDER - 1) @ SLOPE @ FIT
+"""From values at the points to the derivative on [-1, 1] there."""
+
+WEIGHTS = (INTEGRAL @ FIT).sum(axis=0)
+"""Of values at the points in the integral over [-1, 1]."""
+
 # T_k(2 u - 1) in powers of u
 POWERS = np.zeros((ORDER, ORDER))
 for _k in range(ORDER):

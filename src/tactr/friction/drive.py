@@ -13,6 +13,7 @@ from tactr.friction.actuators import Actuators, Plays
 from tactr.friction.driven import Driven
 from tactr.friction.equilibrium import Equilibrium, Settled
 from tactr.friction.missed import history_missed
+from tactr.friction.plain import plain_shape
 from tactr.friction.project import Profile
 from tactr.friction.slip import heat
 from tactr.friction.state import DriveState
@@ -201,7 +202,7 @@ class _Driver:
             if isinstance(pulls, Pulled):
                 return None
         if cold:
-            plain = self._plain(passed)
+            plain = plain_shape(self._prepared, passed)
             if not plain.converged:
                 return None
             return self._equilibrium.settle(
@@ -212,21 +213,6 @@ class _Driver:
         return self._equilibrium.settle(
             old, arrays, pulls, near, near.solution, stay=True, tubes=state.rubbing
         )
-
-    def _plain(self, passed: Actuators) -> Shape:
-        """Without friction."""
-        pulls = None if np.isnan(passed.displacement).all() else passed.displacement
-        return self._prepared.solve(
-            tension=np.where(np.isnan(passed.displacement), passed.tension, 0.0)
-            if not self._profiled()
-            else None,
-            rotation=passed.rotation,
-            translation=passed.translation,
-            displacement=pulls,
-        )
-
-    def _profiled(self) -> bool:
-        return any(isinstance(t.tension, TensionProfile) for t in self._robot.tendons)
 
     def _is_fine(self, a: Settled, b: Settled) -> bool:
         """Whether the way from a to b is short enough for one step, and b as stable as a."""
@@ -258,7 +244,7 @@ class _Driver:
     def _shape(self, state: DriveState, good: bool, point: Actuators, elapsed: float) -> Shape:
         prepared, near = self._prepared, self._near
         if not good or near is None:
-            return self._plain(point.through(self._plays, state.passed))
+            return plain_shape(prepared, point.through(self._plays, state.passed))
         passed = state.passed
         names = [t.name for t in self._robot.tendons]
         pulled = ~np.isnan(passed.displacement)

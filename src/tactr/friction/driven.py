@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -86,6 +87,10 @@ class Driven:
 
     def frictionless_tips(self) -> np.ndarray:
         """Position of the distal end for the same actuation without friction and backlash, (k, 3), m."""
+        return self._frictionless.copy()
+
+    @cached_property
+    def _frictionless(self) -> np.ndarray:
         from tactr.friction.plain import without_friction
 
         none = np.full(3, np.nan)

@@ -25,7 +25,7 @@ from tactr.statics._complementary import complementary_tension
 from tactr.statics.assemble import _profile_rows, tables, tension_row
 from tactr.statics.parameters import WHOLE_NUMBERS
 from tactr.statics.pulls import Pulled, Pulls
-from tactr.statics.solve import HELD_SHARE, Prepared
+from tactr.statics.solve import Prepared
 
 MOST_ROUNDS = 30
 DEPTH = 3  # rounds that are mixed
@@ -178,9 +178,8 @@ class _Rounds:
             rubbed = step(core, arrays, self._tubes_before, guess=guess, stay=self._stay)
             self._tubes, self._held = rubbed.state, rubbed.held
             return (rubbed.core, rubbed.solution) if rubbed.settled else None
-        share = 1.0 if self._pulls is None else HELD_SHARE
-        tolerances = share * prepared.tolerance, prepared.residual_tolerance
-        found = _core.solve(core, *arrays, *tolerances, guess, stay=self._stay)
+        tolerance = prepared.tolerance if self._pulls is None else prepared.held_tolerance
+        found = _core.solve(core, *arrays, tolerance, prepared.residual_tolerance, guess, stay=self._stay)
         return (core, found) if found.status == 0 else None
 
     def _profiles(self, wraps: Sequence[Wrap]) -> list[Profile | None]:

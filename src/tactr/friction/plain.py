@@ -6,10 +6,24 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tactr.friction.actuators import Actuators
 from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared
+
+
+def plain_shape(prepared: Prepared, given: Actuators, guess: Shape | None = None) -> Shape:
+    """The shape at an actuation, without friction."""
+    profiled = any(isinstance(t.tension, TensionProfile) for t in prepared.robot.tendons)
+    pulled = ~np.isnan(given.displacement)
+    return prepared.solve(
+        tension=None if profiled else np.where(pulled, 0.0, given.tension),
+        rotation=given.rotation,
+        translation=given.translation,
+        displacement=given.displacement if pulled.any() else None,
+        guess=guess,
+    )
 
 
 def without_friction(robot: Robot, states: Sequence[DriveState]) -> tuple[Shape | None, ...]:
@@ -18,20 +32,8 @@ def without_friction(robot: Robot, states: Sequence[DriveState]) -> tuple[Shape 
     if first is None:
         return (None,) * len(states)
     prepared, found, near = Prepared(robot, stations=2), [], None
-    profiled = any(isinstance(t.tension, TensionProfile) for t in robot.tendons)
     for state in states:
-        given = state.given
-        if given is None:
-            found.append(None)
-            continue
-        pulled = ~np.isnan(given.displacement)
-        shape = prepared.solve(
-            tension=None if profiled else np.where(pulled, 0.0, given.tension),
-            rotation=given.rotation,
-            translation=given.translation,
-            displacement=given.displacement if pulled.any() else None,
-            guess=near,
-        )
+        shape = None if state.given is None else plain_shape(prepared, state.given, near)
         found.append(shape)
-        near = shape if shape.converged else near
+        near = shape if shape is not None and shape.converged else near
     return tuple(found)

@@ -7,7 +7,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from tactr import _core
-from tactr.friction.chebyshev import FIT, INTEGRAL, ORDER, POINTS, SLOPE, all_points, merged, points
+from tactr.friction.chebyshev import (
+    DERIVATIVE,
+    FIT,
+    INTEGRAL,
+    ORDER,
+    POINTS,
+    WEIGHTS,
+    all_points,
+    merged,
+    points,
+)
 from tactr.friction.equilibrium import Settled
 from tactr.friction.project import Profile
 from tactr.friction.wrap import Channel, inner
@@ -33,22 +43,19 @@ def heat(
         edges = merged(np.array([0.0, c.end]), *fronts, *cuts)
         rates = [_rates(c, settled, translation, edges) for settled, translation in (before, after)]
         shorter, half = rates[0] - rates[1], 0.5 * np.diff(edges)
-        whole = (shorter @ _WEIGHTS) * half
+        whole = (shorter @ WEIGHTS) * half
         beyond = np.append(np.cumsum(whole[::-1])[::-1], 0.0)
         slip = beyond[:-1, None] - (shorter @ _INSIDE.T) * half[:, None]
         falls = [_falls(p, edges) for p in profiles]
         along = _rubbing(falls[0][0], falls[1][0]) * slip
         at_edges = _rubbing(falls[0][1], falls[1][1]) * beyond[:-1]
-        found[k] = float((along @ _WEIGHTS) @ half + at_edges.sum())
+        found[k] = float((along @ WEIGHTS) @ half + at_edges.sum())
         crept[k] = _creep(profiles[1], edges, beyond)
     return found, crept
 
 
 _INSIDE = np.polynomial.chebyshev.chebvander(POINTS, ORDER) @ INTEGRAL @ FIT
 """From values at the points to integrals from -1 up to them."""
-
-_WEIGHTS = (INTEGRAL @ FIT).sum(axis=0)
-_SLOPE = np.polynomial.chebyshev.chebvander(POINTS, ORDER - 1) @ SLOPE @ FIT
 
 
 def _rubbing(before: np.ndarray, after: np.ndarray) -> np.ndarray:
@@ -63,7 +70,7 @@ def _falls(profile: Profile | None, edges: np.ndarray) -> tuple[np.ndarray, np.n
     pieces = [profile.log.piece(float(middle)) for middle in 0.5 * (edges[:-1] + edges[1:])]
     spans = list(zip(pieces, edges[:-1], edges[1:], strict=True))
     tension = np.array([np.exp(profile.log.on(k, points(a, b))) for k, a, b in spans])
-    along = -(tension @ _SLOPE.T) * (2.0 / np.diff(edges))[:, None]
+    along = -(tension @ DERIVATIVE.T) * (2.0 / np.diff(edges))[:, None]
     starts = np.exp([float(profile.log.on(k, a)) for k, a, _ in spans])
     ends = np.exp([float(profile.log.on(k, b)) for k, _, b in spans])
     return along, np.append(0.0, ends[:-1] - starts[1:])

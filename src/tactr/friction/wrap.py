@@ -13,13 +13,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactr import _core
-from tactr.friction.chebyshev import FIT, ORDER, POINTS, SLOPE, Curve, all_points, integrals, merged, terms
+from tactr.friction.chebyshev import (
+    DERIVATIVE,
+    FIT,
+    ORDER,
+    WEIGHTS,
+    Curve,
+    all_points,
+    integrals,
+    merged,
+    terms,
+)
 from tactr.robot import Robot, Tendon
 from tactr.robot.friction import friction_pieces, rubs
 from tactr.statics.assemble import tendon_end
 
 WINDING = 1.5  # rad, most by which a routing turns about its tube in one panel
-_DERIVATIVE = np.polynomial.chebyshev.chebvander(POINTS, ORDER - 1) @ SLOPE @ FIT
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +188,7 @@ def inner(places: np.ndarray, end: float) -> np.ndarray:
 def _along(channel: Channel, edges: np.ndarray, t: np.ndarray, rate: np.ndarray) -> Wrap:
     """t: (k, ORDER, 3) directions at the points of every panel."""
     lengths = np.diff(edges)
-    slope = np.einsum("ab,kbc->kac", _DERIVATIVE, t) * (2.0 / lengths)[:, None, None]
+    slope = np.einsum("ab,kbc->kac", DERIVATIVE, t) * (2.0 / lengths)[:, None, None]
     turning = np.linalg.norm(slope, axis=-1)
     mu = np.array([channel.coefficient(a) for a in edges[:-1]])
     rows, sofar = np.empty_like(turning), 0.0
@@ -201,7 +210,7 @@ def _along(channel: Channel, edges: np.ndarray, t: np.ndarray, rate: np.ndarray)
 
 def _at_disks(channel: Channel, edges: np.ndarray, t: np.ndarray, rate: np.ndarray) -> Wrap:
     contacts = np.array(channel.contacts)
-    chords = np.einsum("a,ka,kac->kc", np.ones(ORDER) @ _WEIGHTS, rate, t) * np.diff(edges)[:, None]
+    chords = np.einsum("a,ka,kac->kc", 0.5 * WEIGHTS, rate, t) * np.diff(edges)[:, None]
     spans = np.concatenate([[0.0], contacts[contacts > 1e-9], [channel.end]])
     owner = np.searchsorted(spans, 0.5 * (edges[:-1] + edges[1:]), side="right") - 1
     direction = np.array([chords[owner == k].sum(axis=0) for k in range(len(spans) - 1)])
@@ -218,17 +227,6 @@ def _at_disks(channel: Channel, edges: np.ndarray, t: np.ndarray, rate: np.ndarr
             kinks[k] += channel.coefficient(place) * (direction[n] - incoming[n])
     panels = len(edges) - 1
     return Wrap(Curve(edges, np.zeros((panels, ORDER))), jumps, np.zeros((panels, ORDER, 3)), kinks)
-
-
-_WEIGHTS = (
-    np.diag(
-        [
-            0.5 * float(np.polynomial.chebyshev.chebval(1.0, np.polynomial.chebyshev.chebint(row, lbnd=-1.0)))
-            for row in np.eye(ORDER)
-        ]
-    )
-    @ FIT
-)
 
 
 def _angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:

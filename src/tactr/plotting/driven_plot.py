@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tactr.errors import FileError, RobotError
+from tactr.errors import RobotError
 from tactr.plotting.palette import MARK_COLOUR, tube_colour
-from tactr.plotting.shape_plot import empty_figure, ticks
+from tactr.plotting.shape_plot import empty_figure, saved, ticks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -57,13 +57,7 @@ def plot_driven(driven: Driven, path: str | os.PathLike[str] | None = None) -> F
     figure.legend(*entries, loc="outside lower center", ncols=3, frameon=False, fontsize=11)
     name = driven[0].robot.name or "robot"
     figure.suptitle(f"{name}: {len(driven)} points with friction", x=0.01, ha="left", fontweight="bold")
-    if path is not None:
-        try:
-            figure.savefig(path, dpi=150)
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or error
-            raise FileError(f"cannot be written: {reason}", path=path) from None
-    return figure
+    return saved(figure, path)
 
 
 def _drivers(driven: Driven) -> list[_Driver]:
