@@ -37,7 +37,10 @@ LEAST_SCALE = {
     "curvature": 1.0,
     "number": 0.1,
 }
-NEVER_NEGATIVE = ("compliance", "pretension", "radius", "tension", "nu")
+NEVER_NEGATIVE = (
+    "compliance", "pretension", "radius", "tension", "nu", "friction", "coefficient", "play", "rotation_play",
+    "translation_play",
+)  # fmt: skip
 POSITIVE = (
     "E", "G", "density", "linear_density", "EI_x", "EI_y", "GJ", "EA", "GA", "length", "rest_length", "end",
     "diameter", "outer_diameter",

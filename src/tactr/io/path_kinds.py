@@ -7,12 +7,12 @@ from tactr.robot import DistributedLoad, Robot
 
 KIND_OF = {  # by the last word of a path; lengths otherwise
     "modulus": ("E", "G"),
-    "number": ("nu", "neutral_axis"),
+    "number": ("nu", "neutral_axis", "friction", "coefficient"),
     "density": ("density",),
     "linear density": ("linear_density",),
     "force": ("tension", "pretension"),
     "compliance": ("compliance",),
-    "angle": ("rotation", "phase", "rx", "ry", "rz"),
+    "angle": ("rotation", "rotation_play", "phase", "rx", "ry", "rz"),
     "angle rate": ("rate",),
     "bending or torsional stiffness": ("EI_x", "EI_y", "GJ"),
     "axial or shear stiffness": ("EA", "GA"),
