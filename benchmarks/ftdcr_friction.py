@@ -4,8 +4,8 @@
     python benchmarks/ftdcr_friction.py --friction 0.05 0.2 --every 6
 
 All numbers but the coefficient are those of the robot ftdcr_calibrated, which was calibrated without friction
-on rows of all the recording: nothing is fitted here, and nothing held out. Every so many rows are driven along in
-their order, with linear displacements in between, from rest.
+on rows of all the recording: nothing is fitted here, and nothing held out. Every so many rows are driven
+along in their order, with linear displacements in between, from rest.
 """
 
 from __future__ import annotations
