@@ -53,7 +53,6 @@ class LaneNewton {
     }
 
     static constexpr double ROUGH = 5e-2, FINE = 1e-4;  // residual of sections before their last linear step
-    static constexpr double CLOSE = 1e-2;               // rad: from here Newton squares the residual
     static constexpr double LONGEST = 1.0;              // rad, of a step
     static constexpr double SHORTER = 0.4, SHORTEST = 0.02;
     static constexpr double LONGEST_CHORD = 1.0;        // rad, of one without derivatives of its own
@@ -151,12 +150,10 @@ class LaneNewton {
                 for (int i = 0; i < N; ++i) step[i] = -missed[i];
                 solve_lanes(N, factors_, step);
                 size = select(kept, norm(missed), size);
-                R ahead(0.0);
-                for (int i = 0; i < N; ++i) ahead -= step[i] * missed[i];
-                R longest = norm(step);  // then as NewtonSolver::is_astray
-                const MaskOf<R> astray = kept & (size > CLOSE) & ((ahead < 0.0) | (longest > Stride::LIKELY));
-                for (int i = 0; i < N; ++i) step[i] = select(astray, -missed[i] * (Stride::LENGTH / size), step[i]);
-                longest = select(astray, R(Stride::LENGTH), longest);
+                R longest = norm(step);
+                const MaskOf<R> stride = kept & Stride::is_due(N, step, longest, missed, size);
+                for (int i = 0; i < N; ++i) step[i] = select(stride, -missed[i] * (Stride::LENGTH / size), step[i]);
+                longest = select(stride, R(Stride::LENGTH), longest);
                 fraction = select(kept, select(longest > LONGEST, LONGEST / longest, R(1.0)), SHORTER * fraction);
                 for (int i = 0; i < N; ++i) {
                     by[i] = select(kept, step[i], by[i]);
@@ -165,9 +162,9 @@ class LaneNewton {
                     memory_.shift[i] = select(far, to - psi_[1 + i], memory_.shift[i]);
                     psi_[1 + i] = select(far, to, psi_[1 + i]);
                 }
-                bound = select(astray, R(HUGE_VAL), (1.0 - 0.1 * fraction) * size);
+                bound = select(stride, R(HUGE_VAL), (1.0 - 0.1 * fraction) * size);
                 alive_ = alive_ & ((!far) | (march.found & (fraction > SHORTEST) & is_finite(longest)));
-                far = far & alive_ & !(kept & (size < CLOSE) & !astray & (fraction >= 1.0));
+                far = far & alive_ & !(kept & (size < Stride::CLOSE) & (fraction >= 1.0));
             }
             alive_ = alive_ & !far;
         }
@@ -195,7 +192,7 @@ class LaneNewton {
             if constexpr (N == 0) return;
             const R turn = step(missed, open);
             alive_ = alive_ & ((!open) | (turn < LONGEST));
-            open = open & alive_ & !(turn < CLOSE);
+            open = open & alive_ & !(turn < Stride::CLOSE);
         }
         alive_ = alive_ & !open;
     }

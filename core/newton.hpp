@@ -126,7 +126,7 @@ class NewtonSolver {
                 for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
             }
             if (solve_dense(shooting.unknowns, A, step) == 0.0) break;
-            if (strides > 0 && is_astray(step, size)) {
+            if (strides > 0 && Stride::is_due(shooting.unknowns, step, norm(step), residual, size)) {
                 --strides;
                 shooting.move(FreeEnd<double>(solution.free_end), residual, -Stride::LENGTH / size, solution.free_end);
                 if (!evaluate(solution, Kind::rough)) return fail(solution, Status::no_equilibrium);
@@ -232,13 +232,6 @@ class NewtonSolver {
 
     std::vector<double> section_error_, edge_error_, length_error_;
 
-    bool is_astray(const double* step, double size) const {
-        constexpr double CLOSE = 1e-2;  // rad
-        double ahead = 0.0;
-        for (int i = 0; i < shooting.unknowns; ++i) ahead -= step[i] * residual[i];
-        return size > CLOSE && (ahead < 0.0 || norm(step) > Stride::LIKELY);
-    }
-
     bool backtrack(Solution& solution, double* step, double size) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing
         constexpr double ROUGH = 1e-3;   // rad
@@ -264,12 +257,11 @@ class NewtonSolver {
 
     /// Newton squares the residual: where it leads close, derivatives serve as they are from then on.
     Kind next_kind(double fraction, double size, double step) {
-        constexpr double CLOSE = 1e-2;  // rad
         if (has_path(kind_)) since_derivatives_ = 0.0;
         since_derivatives_ += step;
-        if ((has_path(kind_) || kind_ == Kind::check) && since_derivatives_ < CLOSE) return Kind::check;
+        if ((has_path(kind_) || kind_ == Kind::check) && since_derivatives_ < Stride::CLOSE) return Kind::check;
         if (careful_) return Kind::firm;
-        return fraction == 1.0 && size < CLOSE ? Kind::draft : Kind::rough;
+        return fraction == 1.0 && size < Stride::CLOSE ? Kind::draft : Kind::rough;
     }
 
     /// The embedded estimate is trusted less where a section that matters has a single step. Under large loads that of a
