@@ -26,8 +26,11 @@ def run(capsys):
 
 
 @pytest.fixture(scope="session")
-def start():
+def start(tmp_path_factory):
     """Runs `python -m tactr.cli WORDS...` (or with other options of Python) in a process of its own."""
+    # As an installed package has it: compiled once, whatever this process was told about bytecode.
+    inherited = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    bytecode = str(tmp_path_factory.mktemp("bytecode"))
 
     def start_(*words: str, python: tuple[str, ...] = (), **options) -> subprocess.CompletedProcess[str]:
         path = os.pathsep.join([str(SOURCE), *filter(None, [os.environ.get("PYTHONPATH")])])
@@ -36,7 +39,7 @@ def start():
             capture_output=True,
             text=True,
             timeout=120,
-            env={**os.environ, "PYTHONPATH": path},
+            env={**inherited, "PYTHONPYCACHEPREFIX": bytecode, "PYTHONPATH": path},
             **options,
         )
 
