@@ -1,0 +1,95 @@
+"""What friction of tendons costs: a step of ``tactr.drive`` against a plain warm solve, on one core.
+
+    python benchmarks/friction.py [--points 60] [--repeats 5]
+
+For every robot and path: time per point of ``tactr.drive`` (state in, state out, heat and stability of every
+step) and of ``Prepared.solve`` from the shape before without friction, along the same path; the least of the
+repeats, and the median.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+from speed import three_tubes
+
+import tactr
+from tactr import Annulus, Material, Robot, Straight, Tendon, Tube
+from tactr.statics import Prepared
+
+
+def bending(**fields: object) -> Robot:
+    """One tube of 200 mm that a tendon bends by up to 1.5 rad."""
+    section = Annulus(2e-3, 1.6e-3)
+    tube = Tube("tube", length=0.2, section=section, material=Material(E=5e9, nu=0.3))
+    return Robot([tube], [Tendon("up", "tube", Straight(0.0, 1.2e-3), **fields)])  # pyright: ignore
+
+
+def with_friction(robot: Robot, coefficient: float) -> Robot:
+    """The robot with this coefficient on all tendons."""
+    return robot.replace(tendons=tuple(replace(t, friction=coefficient) for t in robot.tendons))
+
+
+def legs(corners: list[float], points: int) -> np.ndarray:
+    """Along corners, evenly, (about points,)."""
+    each = max(points // (len(corners) - 1), 1)
+    parts = [np.linspace(a, b, each + 1)[1:] for a, b in pairwise(corners)]
+    return np.concatenate([[corners[0]], *parts])
+
+
+def least_and_median(run: Callable[[], object], repeats: int, points: int) -> tuple[float, float]:
+    """Microseconds per point."""
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        run()
+        times.append((time.perf_counter() - start) / points * 1e6)
+    return min(times), float(np.median(times))
+
+
+def plain_run(robot: Robot, tension: np.ndarray) -> None:
+    """Warm solves along the path."""
+    prepared, shape = Prepared(robot), None
+    for row in tension:
+        shape = prepared.solve(tension=row, guess=shape)
+
+
+def compare(name: str, robot: Robot, plain: Robot, tension: np.ndarray, repeats: int) -> None:
+    """Prints one row."""
+    driven = tactr.drive(robot, {"tension": tension})
+    count, steps = len(tension), sum(driven.steps)
+    drive = least_and_median(lambda: tactr.drive(robot, {"tension": tension}), repeats, count)
+    solve = least_and_median(lambda: plain_run(plain, tension), repeats, count)
+    state = "" if driven.converged else "  NOT CONVERGED"
+    print(
+        f"{name:34}{steps:5d}{drive[0]:10.0f}{drive[1]:10.0f}{solve[0]:10.0f}{solve[1]:10.0f}"
+        f"{drive[0] / solve[0]:8.1f}{state}"
+    )
+
+
+def main() -> None:
+    """Prints the table."""
+    parser = argparse.ArgumentParser(description="Cost of friction of tendons.")
+    parser.add_argument("--points", type=int, default=60)
+    parser.add_argument("--repeats", type=int, default=5)
+    options = parser.parse_args()
+    one, disks = bending(friction=0.15), bending(friction=0.15, contacts=np.arange(0.02, 0.2, 0.02))
+    three, rows = three_tubes(), np.array([3.0, 2.0, 1.0])
+    title = "robot and path", "steps", "drive us", "median", "warm us", "median", "ratio"
+    print(f"{title[0]:34}{title[1]:>5}" + "".join(f"{t:>10}" for t in title[2:6]) + f"{title[6]:>8}")
+    for path, corners in (("pulled", [2.0, 8.0]), ("loops", [8.0, 3.0, 7.0, 2.0, 8.0])):
+        line = legs(corners, options.points)
+        one_row, three_rows = line[:, None], 0.25 * line[:, None] * rows
+        compare(f"1 tube, 1 tendon, {path}", one, bending(), one_row, options.repeats)
+        compare(f"1 tube, 9 disks, {path}", disks, bending(), one_row, options.repeats)
+        rubbing = with_friction(three, 0.15)
+        compare(f"3 tubes, 3 tendons, {path}", rubbing, three, three_rows, options.repeats)
+
+
+if __name__ == "__main__":
+    main()
