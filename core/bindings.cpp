@@ -157,18 +157,25 @@ tactr::Solution blank(const PreparedRobot& robot, const Vector& tension, const V
     return solution;
 }
 
+tactr::Settings settings_of(double tolerance, double residual_tolerance) {
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    return settings;
+}
+
 tactr::Solution solve(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
-                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay, long most_steps) {
+                      double tolerance, double residual_tolerance, const tactr::Solution* guess, int steps, bool stay, long most_steps,
+                      int patience) {
     tactr::Solution solution = blank(robot, tension, rotation, translation);
     nb::gil_scoped_release release;
     const tactr::Robot view = robot.view();
     const tactr::Actuation<double> actuation{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0};
-    tactr::Settings settings;
-    settings.tolerance = tolerance;
-    settings.residual_tolerance = residual_tolerance;
+    tactr::Settings settings = settings_of(tolerance, residual_tolerance);
     settings.fixed_steps = steps;
     settings.stay = stay;
     settings.most_work = most_steps;
+    settings.patience = patience;
     tactr::solve(view, actuation, settings, guess, solution);
     return solution;
 }
@@ -179,9 +186,7 @@ std::vector<tactr::Solution> branches(const PreparedRobot& robot, const Vector& 
     nb::gil_scoped_release release;
     const tactr::Robot view = robot.view();
     const tactr::Actuation<double> actuation{empty.tension.data(), empty.rotation.data(), empty.translation.data(), 1.0, 1.0};
-    tactr::Settings settings;
-    settings.tolerance = tolerance;
-    settings.residual_tolerance = residual_tolerance;
+    tactr::Settings settings = settings_of(tolerance, residual_tolerance);
     return tactr::branches(view, actuation, settings, samples, empty);
 }
 
@@ -362,9 +367,7 @@ nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const 
         at_end.push_back(row[9] != 0.0);
     }
     const tactr::Solution empty = blank(robot, tension, rotation, translation);
-    tactr::Settings settings;
-    settings.tolerance = tolerance;
-    settings.residual_tolerance = residual_tolerance;
+    tactr::Settings settings = settings_of(tolerance, residual_tolerance);
     settings.stay = stay;
     auto found = std::make_unique<tactr::FrictionStep>();
     {
@@ -436,6 +439,7 @@ NB_MODULE(_core, m) {
 
     m.def("solve", &solve, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
           "guess"_a = nb::none(), "steps"_a = 0, "stay"_a = false, "most_steps"_a = tactr::Settings{}.most_work,
+          "patience"_a = tactr::Settings{}.patience,
           "Free-end unknowns, residuals and tip of one robot at one actuation.");
     m.def("branches", &branches, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a,
           "samples"_a = 0, "All equilibria found at one actuation, stable ones first, then by energy.");

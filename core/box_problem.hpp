@@ -2,8 +2,9 @@
 // the upper one. The optimality conditions of a convex quadratic over a box for a symmetric positive definite A.
 #pragma once
 #include <cmath>
-#include <utility>
 #include <vector>
+
+#include "dense.hpp"
 
 namespace tactr {
 
@@ -14,8 +15,9 @@ class BoxProblem {
         : A_(A), b_(b), limit_(limit), n_(b.size()), w_(n_, 0.0) {}
 
     /// Block pivoting (Judice and Pires, Computers and Operations Research 21, 1994), mostly a few rounds, from x or from all
-    /// sliding the way they would without torques; where both go in circles, projected Newton (Bertsekas, SIAM J. Control and Optimization 20, 1982), which falls to the minimum of a
-    /// convex quadratic. x: start and result. False: neither came to an end.
+    /// sliding the way they would without torques; where both go in circles, projected Newton (Bertsekas, SIAM J. Control
+    /// and Optimization 20, 1982), which falls to the minimum of a convex quadratic. x: start and result. False: neither
+    /// came to an end.
     bool solve(std::vector<double>& x) {
         for (bool slides : {false, true}) {
             std::vector<double> pivoted = x;
@@ -144,29 +146,10 @@ class BoxProblem {
         return true;
     }
 
-    /// Gaussian elimination with partial pivoting.
+    /// right_ becomes the solution; false: singular.
     bool eliminate(size_t m) {
-        for (size_t k = 0; k < m; ++k) {
-            size_t best = k;
-            for (size_t r = k + 1; r < m; ++r)
-                if (std::fabs(matrix_[r * m + k]) > std::fabs(matrix_[best * m + k])) best = r;
-            if (!(std::fabs(matrix_[best * m + k]) > 1e-300)) return false;
-            if (best != k) {
-                for (size_t c = k; c < m; ++c) std::swap(matrix_[k * m + c], matrix_[best * m + c]);
-                std::swap(right_[k], right_[best]);
-            }
-            for (size_t r = k + 1; r < m; ++r) {
-                const double f = matrix_[r * m + k] / matrix_[k * m + k];
-                if (f == 0.0) continue;
-                for (size_t c = k; c < m; ++c) matrix_[r * m + c] -= f * matrix_[k * m + c];
-                right_[r] -= f * right_[k];
-            }
-        }
-        for (size_t r = m; r-- > 0;) {
-            for (size_t c = r + 1; c < m; ++c) right_[r] -= matrix_[r * m + c] * right_[c];
-            right_[r] /= matrix_[r * m + r];
-        }
-        return true;
+        const int n = static_cast<int>(m);
+        return m == 0 || solve_dense(n, matrix_.data(), n, right_.data()) != 0.0;
     }
 
     bool is_wrong(size_t i, const std::vector<double>& x) const {

@@ -393,7 +393,9 @@ class Settler {
         BranchFinder finder(newton_, first);
         if (met) finder.keep(first);
         if (met && !solution_.used_continuation) grow(finder);
-        const bool stable = finder.search_stable(std::min(cold_.settings.max_steps, cold_.settings.most_work - solution_.steps_marched));
+        const long most = met ? std::min(cold_.settings.max_steps, cold_.settings.most_work - solution_.steps_marched)
+                              : cold_.settings.max_steps * cold_.settings.patience;
+        const bool stable = finder.search_stable(most);
         solution_.steps_marched += finder.work();
         if (finder.found.empty() || (met && !stable)) return;
         finder.sort();

@@ -5,33 +5,39 @@
 
 namespace tactr {
 
-/// Solves A x = b in place by Gaussian elimination with partial pivoting; returns the determinant (0: singular).
-template <int N>
-inline double solve_dense(int n, double (&A)[N][N], double (&b)[N]) {
+/// Solves A x = b in place by Gaussian elimination with partial pivoting; returns the determinant (0: singular). A: rows, as
+/// far apart in memory as the stride.
+inline double solve_dense(int n, double* A, int stride, double* b) {
+    const auto row = [=](int r) { return A + static_cast<long>(r) * stride; };
     double determinant = 1.0;
     for (int k = 0; k < n; ++k) {
         int best = k;
         for (int r = k + 1; r < n; ++r)
-            if (std::fabs(A[r][k]) > std::fabs(A[best][k])) best = r;
-        if (!(std::fabs(A[best][k]) > 1e-300)) return 0.0;
+            if (std::fabs(row(r)[k]) > std::fabs(row(best)[k])) best = r;
+        if (!(std::fabs(row(best)[k]) > 1e-300)) return 0.0;
         if (best != k) {
-            for (int c = 0; c < n; ++c) std::swap(A[k][c], A[best][c]);
+            for (int c = 0; c < n; ++c) std::swap(row(k)[c], row(best)[c]);
             std::swap(b[k], b[best]);
             determinant = -determinant;
         }
-        determinant *= A[k][k];
+        determinant *= row(k)[k];
         for (int r = k + 1; r < n; ++r) {
-            const double f = A[r][k] / A[k][k];
+            const double f = row(r)[k] / row(k)[k];
             if (f == 0.0) continue;
-            for (int c = k; c < n; ++c) A[r][c] -= f * A[k][c];
+            for (int c = k; c < n; ++c) row(r)[c] -= f * row(k)[c];
             b[r] -= f * b[k];
         }
     }
     for (int r = n - 1; r >= 0; --r) {
-        for (int c = r + 1; c < n; ++c) b[r] -= A[r][c] * b[c];
-        b[r] /= A[r][r];
+        for (int c = r + 1; c < n; ++c) b[r] -= row(r)[c] * b[c];
+        b[r] /= row(r)[r];
     }
     return determinant;
+}
+
+template <int N>
+inline double solve_dense(int n, double (&A)[N][N], double (&b)[N]) {
+    return solve_dense(n, &A[0][0], N, b);
 }
 
 /// The inverse of A by Gauss-Jordan elimination with partial pivoting; returns the determinant (0: singular).

@@ -138,8 +138,9 @@ class NewtonSolver {
             if (!newton(solution, settings.residual_tolerance, first)) return false;
             if (is_fine(solution) || settings.fixed_steps > 0) return succeed(solution);
             // the estimate of a rough march holds what is left of its sections' equations too, which no finer steps lower
-            if (estimate_ != Kind::draft && !refine(solution, allowed_error(solution))) break;
-            first = Kind::exact;
+            const bool exactly = round >= 3;
+            if (!(exactly && estimate_ == Kind::draft) && !refine(solution, allowed_error(solution))) break;
+            first = exactly ? Kind::exact : Kind::rough;
         }
         return fail(solution, Status::too_coarse);
     }

@@ -18,7 +18,8 @@ struct Settings {
     int fixed_steps = 0;               // > 0: steps in every section, without error control
     int max_iterations = 60;           // of one Newton run
     long max_steps = 48000;            // marched by one way from cold: about a second at most
-    long most_work = 200000;           // steps marched in all, a search for a stable solution included
+    long most_work = 200000;           // steps marched in all by these ways and a search for a stable solution
+    int patience = 12;                 // times max_steps for a search for any solution, where all ways have failed
     bool stay = false;                 // with a guess: its branch or none, never from cold
 };
 

@@ -54,6 +54,7 @@ def solve(
     steps: int = 0,
     stay: bool = False,
     most_steps: int = ...,
+    patience: int = ...,
 ) -> Solution:
     """Free-end unknowns, residuals and tip of one robot at one actuation."""
 

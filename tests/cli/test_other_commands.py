@@ -82,7 +82,7 @@ def test_the_ready_made_help_is_complete():
     assert (
         sorted(commands)
         == sorted(COMMANDS)
-        == ["calibrate", "check", "examples", "reproduce", "schema", "solve", "sweep", "view"]
+        == ["calibrate", "check", "drive", "examples", "reproduce", "schema", "solve", "sweep", "view"]
     )
     for name in commands:
         assert re.search(rf"^  {name} ", HELP, re.MULTILINE)
@@ -92,9 +92,10 @@ def test_the_ready_made_help_is_complete():
         assert text.startswith(f"tactr {name}: ")
         for parameter in parameters.values():
             option = parameter.kind is parameter.KEYWORD_ONLY
-            word = f"--{parameter.name}" if option else parameter.name.upper()
+            word = f"--{parameter.name.replace('_', '-')}" if option else parameter.name.upper()
             assert re.search(rf"^  .*{word}|Usage: .*{word}", text, re.MULTILINE), word
-        assert set(re.findall(r"--(\w+)", text)) <= set(parameters)
+        words = re.findall(r"--([\w-]+)", text)
+        assert {word.replace("-", "_") for word in words} <= set(parameters)
 
 
 @pytest.mark.parametrize(

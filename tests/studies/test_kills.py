@@ -130,6 +130,10 @@ def test_killed_while_the_store_is_made(tmp_path, tendon_study, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         sweep(tendon_study, tmp_path / "x.zarr")
     assert list(tmp_path.iterdir()) == []
+    monkeypatch.undo()
+    (tmp_path / ".x.zarr.new" / "status").mkdir(parents=True)  # left by SIGKILL
+    assert sweep(tendon_study, tmp_path / "x.zarr").complete
+    assert [path.name for path in tmp_path.iterdir()] == ["x.zarr"]
 
 
 def test_two_at_a_time_are_refused(tmp_path, tendon_study):

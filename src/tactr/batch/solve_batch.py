@@ -17,6 +17,7 @@ from tactr.batch.result import CODE, INVALID, Batch
 from tactr.errors import RobotError
 from tactr.robot import Robot
 from tactr.robot import _check as check
+from tactr.statics.assemble import assemble
 from tactr.statics.derivatives import Jacobian
 from tactr.statics.held import MOST_STEPS
 from tactr.statics.solve import Prepared
@@ -168,7 +169,7 @@ class _Job:
         threads: int,
         door: int | None,
     ) -> dict[str, np.ndarray]:
-        stand_in = self.usable[0].core if self.usable else _core_of(self.items.base, self.tolerance)
+        stand_in = self.usable[0].core if self.usable else assemble(self.items.base)
         cores = [design.core if isinstance(design, Design) else stand_in for design in self.designs]
         residual = self._of_designs("residual_tolerance", 1)[:, 0]
         return _core.solve_batch(
@@ -242,10 +243,6 @@ def _statuses(found: dict[str, np.ndarray]) -> np.ndarray:
     kinked = (status == CODE[Status.NO_SECTION_EQUILIBRIUM.value]) & (found["shortest_tendon"] < KINK)
     status[kinked] = CODE[Status.KINKED.value]
     return status
-
-
-def _core_of(robot: Robot, tolerance: float) -> _core.PreparedRobot:
-    return Prepared(robot, tolerance=tolerance)._core
 
 
 def _outputs(outputs: Sequence[str]) -> tuple[str, ...]:

@@ -11,18 +11,13 @@ import numpy as np
 
 from tactr.calibration.measurements import ACTUATION, Measurements, Remark, seen
 from tactr.errors import FileError
-from tactr.io.csv_table import Table, decoded, heading, number, read_table, unit_factor
+from tactr.io.csv_table import Table, heading, number, table_in, unit_factor
 from tactr.io.document import ProblemsFound, printable, read_text
 from tactr.io.file_error import file_error
+from tactr.io.read_path import ACTUATION_KIND
 from tactr.io.units import UnitError, kind, parse_quantity
 
-KIND = {
-    "displacement": "length",
-    "tension": "force",
-    "rotation": "angle",
-    "translation": "length",
-    "tip": "length",
-}
+KIND = {**ACTUATION_KIND, "tip": "length"}
 HEAD = "a line that names the columns, then rows"
 EXAMPLES = 'such as "tip.x [mm]", "displacement.NAME [mm]", "tension.NAME [N]", "time [s]" or "group"'
 _BRACKETS = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<unit>[^\]]*)\])?\s*")
@@ -39,15 +34,7 @@ class Column(NamedTuple):
 
 def read_measurements(path: Path, columns: str | Path | Mapping[str, str] | None) -> Measurements:
     """As ``Measurements.read``."""
-    try:
-        content = path.read_bytes()
-    except FileNotFoundError:
-        raise FileError("no such file", path=path) from None
-    except OSError as error:
-        raise FileError(f"cannot be read: {error.strerror or error}", path=path) from None
-    table = read_table(decoded(content, str(path)), str(path), HEAD)
-    if not table.rows:
-        raise FileError("holds no rows", path=path, expected=HEAD)
+    table = table_in(path, HEAD)
     named = {name: name for name in table.head} if columns is None else _mapped(table, columns)
     return _built(table, _columns(table, named))
 

@@ -55,6 +55,24 @@ def solve(
 
 
 @app.command
+def drive(
+    file: str,
+    path: Path,
+    /,
+    *,
+    tolerance: str | None = None,
+    state: Path | None = None,
+    save: Path | None = None,
+    save_state: Path | None = None,
+    plot: Path | None = None,
+) -> int:
+    """Follow a path of actuation with friction and backlash."""
+    from tactr.cli.drive import Request, run_drive
+
+    return run_drive(Request(file, path, tolerance, state, save, save_state, plot))
+
+
+@app.command
 def calibrate(
     file: str,
     data: Path,

@@ -6,6 +6,8 @@ tactr: the shape of tendon-actuated concentric tube robots
 Usage: tactr COMMAND [ARGUMENTS]
 
   solve [FILE]       compute the shape of a robot and report it
+  drive FILE PATH.csv
+                     follow a path of actuation with friction and backlash
   view [FILE]        show a robot in the browser, where everything can be moved
   calibrate FILE DATA.csv
                      find a robot's numbers from measured points
@@ -54,6 +56,27 @@ Usage: tactr solve [FILE] [OPTIONS]
   --plot FILE.png          draw the shape (.png, .pdf, .svg)
 
 Exit code 2: something is wrong with the input, or no equilibrium was found.
+"""
+
+DRIVE = """\
+tactr drive: follow a path of actuation with friction and backlash
+
+Usage: tactr drive FILE PATH.csv [OPTIONS]
+
+  FILE                   a robot file (.yaml, .toml) or the name of a built-in example
+  PATH.csv               a row for every point; columns "tension.outer [N]", "displacement.left [mm]",
+                         "rotation.inner [deg]", "translation.inner [mm]"; linear in between. What has no
+                         column stays as the robot has it
+
+  --state FILE.json      what the robot remembers at the start; default: at rest
+  --tolerance LENGTH     largest discretisation error at the tip, with unit; default "1 um"
+
+  --save FILE.nc         write tips, shapes, tensions and states to a netCDF file
+  --save-state FILE.json write what the robot remembers at the end, for --state
+  --plot FILE.png        draw the loop and what friction changes (.png, .pdf, .svg)
+
+Exit code 2: something is wrong with the input, or a point was not reached; those before it are written.
+Model and assumptions: docs/friction.md, docs/tube_friction.md.
 """
 
 CALIBRATE = """\
@@ -170,6 +193,7 @@ Exit code 2: the report cannot be written, or matplotlib is missing.
 
 COMMANDS = {
     "solve": SOLVE,
+    "drive": DRIVE,
     "view": VIEW,
     "calibrate": CALIBRATE,
     "sweep": SWEEP,

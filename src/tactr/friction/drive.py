@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from time import perf_counter
 
 import numpy as np
@@ -12,6 +12,7 @@ from tactr.errors import RobotError
 from tactr.friction.actuators import Actuators, Plays
 from tactr.friction.driven import Driven
 from tactr.friction.equilibrium import Equilibrium, Settled
+from tactr.friction.plain import plain_shape
 from tactr.friction.profile import Profile
 from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
@@ -35,6 +36,7 @@ def drive(
     state: DriveState | None = None,
     tolerance: float = 1e-6,
     stations: int | Sequence[float] | np.ndarray = 101,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Driven:
     """Shapes along a path of actuation, with friction of tendons and tubes and backlash.
 
@@ -45,15 +47,16 @@ def drive(
     where tubes meet without friction torques.
     What friction and backlash leave behind comes back in the result's states: nothing is hidden in the
     robot. tolerance, stations: as in ``solve``. Every way between two points is cut into steps in which the
-    free end turns by less than 0.1 rad. A result always comes back: look at ``converged``. Model and
-    assumptions: docs/friction.md, docs/tube_friction.md. Raises RobotError.
+    free end turns by less than 0.3 rad. progress: called with points done and their number. A result always
+    comes back: look at ``converged``. Model and assumptions: docs/friction.md, docs/tube_friction.md. Raises
+    RobotError.
     """
     points = path_points(robot, path)
     _check(points[0])
     prepared = Prepared(points[0], tolerance=tolerance, stations=stations)
     if state is not None:
         state.fits(robot)
-    return _Driver(prepared, [Actuators.of(p) for p in points]).run(state)
+    return _Driver(prepared, [Actuators.of(p) for p in points]).run(state, progress)
 
 
 def _check(robot: Robot) -> None:
@@ -76,7 +79,7 @@ class _Driver:
         self._near: Settled | None = None
         self._before: Settled | None = None  # what was found before that
 
-    def run(self, state: DriveState | None) -> Driven:
+    def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
         shapes, states, failed, steps = [], [], [], []
         held = np.zeros(len(self._points), dtype=int)
         tendons = len(self._robot.tendons)
@@ -93,6 +96,8 @@ class _Driver:
             held[k] = self._near.held if good and self._near is not None else 0
             steps.append(max(count, 1))
             failed.append("" if good and shapes[-1].converged else self._why(shapes[-1]))
+            if progress is not None:
+                progress(k + 1, len(self._points))
         return Driven(
             tuple(shapes), tuple(states), tuple(failed), tuple(steps), heats, creeps, tube_heats, held
         )
@@ -195,7 +200,7 @@ class _Driver:
             if isinstance(pulls, Pulled):
                 return None
         if cold:
-            plain = self._plain(passed)
+            plain = plain_shape(self._prepared, passed)
             if not plain.converged:
                 return None
             return self._equilibrium.settle(
@@ -206,21 +211,6 @@ class _Driver:
         return self._equilibrium.settle(
             old, arrays, pulls, near, near.solution, before=self._before, stay=True, tubes=state.rubbing
         )
-
-    def _plain(self, passed: Actuators) -> Shape:
-        """Without friction."""
-        pulls = None if np.isnan(passed.displacement).all() else passed.displacement
-        return self._prepared.solve(
-            tension=np.where(np.isnan(passed.displacement), passed.tension, 0.0)
-            if not self._profiled()
-            else None,
-            rotation=passed.rotation,
-            translation=passed.translation,
-            displacement=pulls,
-        )
-
-    def _profiled(self) -> bool:
-        return any(isinstance(t.tension, TensionProfile) for t in self._robot.tendons)
 
     def _is_fine(self, a: Settled, b: Settled) -> bool:
         """Whether the way from a to b is short enough for one step, and b as stable as a."""
@@ -244,7 +234,7 @@ class _Driver:
     def _shape(self, state: DriveState, good: bool, point: Actuators, elapsed: float) -> Shape:
         prepared, near = self._prepared, self._near
         if not good or near is None:
-            return self._plain(point.through(self._plays, state.passed))
+            return plain_shape(prepared, point.through(self._plays, state.passed))
         passed = state.passed
         names = [t.name for t in self._robot.tendons]
         pulled = ~np.isnan(passed.displacement)

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tactr.friction.state import DriveState
 from tactr.statics.shape import Shape
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -73,6 +80,40 @@ class Driven:
         return np.array([shape._solution.tendon_length for shape in self.shapes]).reshape(
             len(self.shapes), -1
         )
+
+    def before(self, k: int) -> Driven:
+        """The first k points, at least one."""
+        return Driven(*(getattr(self, field.name)[:k] for field in fields(self)))
+
+    def frictionless_tips(self) -> np.ndarray:
+        """Position of the distal end for the same actuation without friction and backlash, (k, 3), m."""
+        return self._frictionless.copy()
+
+    @cached_property
+    def _frictionless(self) -> np.ndarray:
+        from tactr.friction.plain import without_friction
+
+        none = np.full(3, np.nan)
+        shapes = without_friction(self.shapes[0].robot, self.states)
+        return np.array([s.tip_position if s is not None and s.converged else none for s in shapes])
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Tips, shapes, tensions and states with units (extra: netcdf)."""
+        from tactr.io.results_driven import driven_to_xarray
+
+        return driven_to_xarray(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write ``to_xarray`` to a netCDF-4 file (extra: netcdf). Raises FileError."""
+        from tactr.io.results_driven import save_driven
+
+        save_driven(self, path)
+
+    def plot(self, path: str | os.PathLike[str] | None = None) -> Figure:
+        """The loop and what friction changes, as a Figure; saved to path where given (extra: plot)."""
+        from tactr.plotting.driven_plot import plot_driven
+
+        return plot_driven(self, path)
 
     def __len__(self) -> int:
         return len(self.shapes)

@@ -153,8 +153,8 @@ class _Rounds:
             rubbed = step(core, arrays, self._tubes_before, guess=guess, stay=self._stay)
             self._tubes, self._held = rubbed.state, rubbed.held
             return (rubbed.core, rubbed.solution) if rubbed.settled else None
-        tolerances = prepared.tolerance, prepared.residual_tolerance
-        found = _core.solve(core, *arrays, *tolerances, guess, stay=self._stay)
+        tolerance = prepared.tolerance if self._pulls is None else prepared.held_tolerance
+        found = _core.solve(core, *arrays, tolerance, prepared.residual_tolerance, guess, stay=self._stay)
         return (core, found) if found.status == 0 else None
 
     def _pull(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from io import StringIO
+from pathlib import Path
 from typing import NamedTuple
 
 from tactr.errors import FileError
@@ -23,6 +24,20 @@ class Table(NamedTuple):
     line: int
     head: list[str]
     rows: list[tuple[int, list[str]]]
+
+
+def table_in(path: Path, expected: str) -> Table:
+    """The table of a file, which has at least one row; expected: as in ``read_table``. Raises FileError."""
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError:
+        raise FileError("no such file", path=path) from None
+    except OSError as error:
+        raise FileError(f"cannot be read: {error.strerror or error}", path=path) from None
+    table = read_table(decoded(content, str(path)), str(path), expected)
+    if not table.rows:
+        raise FileError("holds no rows", path=path, expected=expected)
+    return table
 
 
 def decoded(content: bytes, name: str) -> str:

@@ -39,7 +39,7 @@ def to_xarray(shape: Shape) -> xarray.Dataset:
     The attributes tell how the solve ended and hold the robot as the text of a robot file. Raises
     NotConverged where there is no shape, MissingExtra without xarray.
     """
-    xr = _import("xarray")
+    xr = imported("xarray")
     variables: dict[str, Any] = {}
     _add_robot(variables, shape)
     _add_tubes(variables, shape)
@@ -62,21 +62,26 @@ def save(shape: Shape, path: str | os.PathLike[str]) -> None:
     Raises FileError where the file cannot be written, NotConverged where there is no shape, MissingExtra
     without the extra netcdf.
     """
-    _import("h5netcdf")
-    dataset = to_xarray(shape)
+    imported("h5netcdf")
+    write(to_xarray(shape), path)
+
+
+def write(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
+    """Write a dataset to a netCDF-4 file. Raises FileError."""
     try:
         dataset.to_netcdf(path, engine="h5netcdf")
     except OSError as error:
         raise FileError(f"cannot be written: {error.strerror or error}", path=path) from None
 
 
-def _import(module: str) -> Any:
+def imported(module: str) -> Any:
+    """A module of the extra netcdf. Raises MissingExtra."""
     from importlib import import_module
 
     try:
         return import_module(module)
     except ImportError:
-        raise MissingExtra(module, "netcdf", "a dataset of a shape") from None
+        raise MissingExtra(module, "netcdf", "a dataset of results") from None
 
 
 def _add_robot(variables: dict[str, Any], shape: Shape) -> None:
@@ -146,11 +151,12 @@ def _attributes(shape: Shape) -> dict[str, Any]:
         "displacement_error_m": float(shape.displacement_error),
         "discretisation_error_m": float(shape.discretisation_error),
         "solve_time_s": float(shape.solve_time),
-        "robot": _robot_text(shape),
+        "robot": robot_text(shape),
     }
 
 
-def _robot_text(shape: Shape) -> str:
+def robot_text(shape: Shape) -> str:
+    """The text of a robot file of a shape's robot, or why there is none."""
     from tactr.io.files import dumps
 
     try:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tactr.errors import FileError
 from tactr.plotting.palette import MARK_COLOUR, tube_colour
-from tactr.plotting.shape_plot import empty_figure
+from tactr.plotting.shape_plot import empty_figure, saved
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,13 +36,7 @@ def plot_calibration(result: Calibration, path: str | os.PathLike[str] | None = 
         f"{result.robot.name or 'robot'}: {len(error)} rows, mean error {np.nanmean(error):.2f} mm"
         + (f", held out {result.hold_out.mean * 1e3:.2f} mm" if result.hold_out else "")
     )
-    if path is not None:
-        try:
-            figure.savefig(path, dpi=150)
-        except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or error
-            raise FileError(f"cannot be written: {reason}", path=path) from None
-    return figure
+    return saved(figure, path)
 
 
 def _over_rows(axes: Any, result: Calibration) -> None:

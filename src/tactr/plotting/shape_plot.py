@@ -37,14 +37,7 @@ def plot_shape(shape: Shape, path: str | os.PathLike[str] | None = None) -> Figu
     views[1].sharey(views[0])
     views[1].tick_params(labelleft=False)
     _words(figure, shape, views[0])
-    if path is not None:
-        try:
-            figure.savefig(path, dpi=150)
-        except (OSError, ValueError) as error:
-            raise FileError(
-                f"cannot be written: {getattr(error, 'strerror', None) or error}", path=path
-            ) from None
-    return figure
+    return saved(figure, path)
 
 
 def empty_figure(width: float, height: float) -> Any:
@@ -66,6 +59,17 @@ def empty_figure(width: float, height: float) -> Any:
             return buffer.getvalue()
 
     return DisplayedFigure(figsize=(width, height), layout=ConstrainedLayoutEngine(wspace=0.13))
+
+
+def saved(figure: Figure, path: str | os.PathLike[str] | None, *, dpi: int = 150) -> Figure:
+    """The figure, written to `path` where given. Raises FileError."""
+    if path is not None:
+        try:
+            figure.savefig(path, dpi=dpi)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            raise FileError(f"cannot be written: {reason}", path=path) from None
+    return figure
 
 
 def _limits(content: Drawing) -> tuple[np.ndarray, np.ndarray]:

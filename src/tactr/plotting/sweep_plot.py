@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tactr.errors import FileError, RobotError
+from tactr.errors import RobotError
 from tactr.plotting.palette import tube_colour
-from tactr.plotting.shape_plot import empty_figure, ticks
+from tactr.plotting.shape_plot import empty_figure, saved, ticks
 from tactr.studies.derived import Named, derived, named, names
 from tactr.studies.summary import holds, spread_rows
 
@@ -56,14 +56,7 @@ def plot_sweep(sweep: Sweep, path: str | os.PathLike[str] | None = None, *, colo
     for k, name in enumerate(_histograms(sweep, colour)):
         _histogram(figure.add_subplot(grid[2, k]), derived(sweep, name, rows[good]), named(sweep, name))
     figure.suptitle(_title(sweep, rows, good, found))
-    if path is not None:
-        try:
-            figure.savefig(path, dpi=120)
-        except (OSError, ValueError) as error:
-            raise FileError(
-                f"cannot be written: {getattr(error, 'strerror', None) or error}", path=path
-            ) from None
-    return figure
+    return saved(figure, path, dpi=120)
 
 
 def _limits(tips: np.ndarray) -> np.ndarray:

@@ -49,7 +49,14 @@ class Held:
         work = min(self._most_work - self.work, self._most_each)
         steps = int(min(max(work / self._weight, LEAST_STEPS), MOST_STEPS))
         found = _core.solve(
-            self.prepared, tension, *self._places, *tolerances, guess, stay=stay, most_steps=steps
+            self.prepared,
+            tension,
+            *self._places,
+            *tolerances,
+            guess,
+            stay=stay,
+            most_steps=steps,
+            patience=1,  # other tensions may be easier
         )
         self.solves += 1
         self.marches += found.iterations

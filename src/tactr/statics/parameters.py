@@ -51,18 +51,27 @@ def with_value(robot: Robot, path: str, value: float) -> Robot:
     return _replaced(robot, path.split("."), value, path)
 
 
-def actuator_column(robot: Robot, path: str) -> int | None:
-    """The Jacobian's column of a tension, rotation or translation; None for any other path."""
+def place_of(robot: Robot, path: str) -> tuple[str, str, int] | None:
+    """("tendons", "tension", index of the tendon) and the like for a field of a tendon or a tube; None for
+    any other path."""
     group, _, rest = path.partition(".")
     name, _, field = rest.rpartition(".")
-    tendons, tubes = [t.name for t in robot.tendons], [t.name for t in robot.tubes]
-    if group == "tendons" and field == "tension" and name in tendons:
-        column = tendons.index(name)
-        if not isinstance(robot.tendons[column].tension, TensionProfile):  # counts per unit of a factor on it
-            value_of(robot, path)
-        return column
-    if group == "tubes" and field in ("rotation", "translation") and name in tubes:
-        return len(tendons) + tubes.index(name) + (len(tubes) if field == "translation" else 0)
+    names = [part.name for part in getattr(robot, group)] if group in ("tubes", "tendons") else []
+    return (group, field, names.index(name)) if name in names else None
+
+
+def actuator_column(robot: Robot, path: str) -> int | None:
+    """The Jacobian's column of a tension, rotation or translation; None for any other path."""
+    tendons, tubes = len(robot.tendons), len(robot.tubes)
+    match place_of(robot, path):
+        case "tendons", "tension", j:
+            if not isinstance(robot.tendons[j].tension, TensionProfile):  # counts per unit of a factor on it
+                value_of(robot, path)
+            return j
+        case "tubes", "rotation", i:
+            return tendons + i
+        case "tubes", "translation", i:
+            return tendons + tubes + i
     return None
 
 

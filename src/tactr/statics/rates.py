@@ -18,7 +18,7 @@ import numpy as np
 from tactr import _core
 from tactr.robot import Robot
 from tactr.statics._complementary import SINGULAR
-from tactr.statics.parameters import actuator_column, rates_of, value_of
+from tactr.statics.parameters import actuator_column, place_of, rates_of, value_of
 
 if TYPE_CHECKING:
     from tactr.statics.pulls import Pulled
@@ -180,10 +180,8 @@ def stands_alone(robot: Robot, path: str) -> bool:
 
 def _motor(robot: Robot, path: str) -> tuple[str, int] | None:
     """Which of a tendon's numbers that only its motor knows, and of which tendon."""
-    group, _, rest = path.partition(".")
-    name, _, field = rest.rpartition(".")
-    names = [tendon.name for tendon in robot.tendons]
-    if group != "tendons" or field not in MOTOR or name not in names:
+    place = place_of(robot, path)
+    if place is None or place[0] != "tendons" or place[1] not in MOTOR:
         return None
     value_of(robot, path)
-    return field, names.index(name)
+    return place[1:]

@@ -34,9 +34,7 @@ from tactr.statics.shape import Shape
 from tactr.statics.stations import station_places
 
 RESIDUAL_SHARE = 0.05  # of the tolerance at the tip may come from the angle by which the base is missed
-HELD_SHARE = (
-    0.2  # of the tolerance, in solves at held tensions: an error in a length becomes one in a displacement
-)
+HELD_SHARE = 0.2  # of the tolerance, at held tensions: what is wrong in a length is wrong in a displacement
 LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e-11, 1e-6  # rad: rounding below, carelessness above
 
 
@@ -127,6 +125,7 @@ class Prepared:
         self.robot = robot
         self.tolerance = _positive("tolerance", tolerance)
         self.residual_tolerance = residual_tolerance_of(robot, self.tolerance)
+        self.held_tolerance = HELD_SHARE * self.tolerance  # of solves at held tensions, under displacements
         self._core = assemble(robot)
         self._given_stations = stations
         self._stations = station_places(robot, stations)
@@ -141,7 +140,7 @@ class Prepared:
 
     @cached_property
     def _rest(self) -> RestState:
-        return RestState(self.robot, self._core, HELD_SHARE * self.tolerance, self.residual_tolerance)
+        return RestState(self.robot, self._core, self.held_tolerance, self.residual_tolerance)
 
     def __repr__(self) -> str:
         return f"<Prepared {self.robot!r}, tolerance {self.tolerance:.1e} m>"
@@ -252,7 +251,7 @@ class Prepared:
 
     def _held(self, actuated: _Actuated) -> Held:
         _, rotation, translation = actuated.arrays
-        return Held(self._core, rotation, translation, HELD_SHARE * self.tolerance, self.residual_tolerance)
+        return Held(self._core, rotation, translation, self.held_tolerance, self.residual_tolerance)
 
     def _pulled(
         self, actuated: _Actuated, displacement: np.ndarray, guess: Shape | None, stay: bool

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tactr.errors import RobotError
 from tactr.robot import Robot
 from tactr.robot import _check as check
-from tactr.statics.parameters import value_of, with_value
+from tactr.statics.parameters import place_of, value_of, with_value
 from tactr.studies.unit_samples import METHODS
 
 ACTUATORS = {"tension": "tendons", "displacement": "tendons", "rotation": "tubes", "translation": "tubes"}
@@ -90,12 +90,8 @@ def whole(field: str, value: object, least: int, most: int) -> None:
 
 def actuator(robot: Robot, path: str) -> tuple[str, int] | None:
     """("rotation", index of the tube) and the like for the path of an actuator; None for any other path."""
-    group, _, rest = path.partition(".")
-    name, _, field = rest.rpartition(".")
-    names = [part.name for part in getattr(robot, group, ())] if group in ("tubes", "tendons") else []
-    if ACTUATORS.get(field) != group or name not in names:
-        return None
-    return field, names.index(name)
+    place = place_of(robot, path)
+    return place[1:] if place is not None and ACTUATORS.get(place[1]) == place[0] else None
 
 
 def check_axis(robot: Robot, axis: Axis) -> None:

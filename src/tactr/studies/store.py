@@ -132,7 +132,8 @@ def _check_same(path: Path, attributes: dict[str, Any], study: Study) -> None:
 
 def _create(zarr: Any, path: Path, study: Study, template: Arrays) -> None:
     """Built beside its place and moved there whole."""
-    draft = path.with_name(f".{path.name}.{os.getpid()}.new")
+    draft = path.with_name(f".{path.name}.new")
+    shutil.rmtree(draft, ignore_errors=True)  # of a process that was killed here
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         _fill(zarr.create_group(draft, zarr_format=3, attributes=_attributes(study)), study, template)

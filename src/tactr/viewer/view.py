@@ -28,7 +28,7 @@ class View:
     def __init__(self, shown: Robot | Shape | Sweep, *, port: int | None = None, source: str = "") -> None:
         if not isinstance(shown, Robot | Shape | Sweep):
             expected = "a Robot, a Shape or a Sweep"
-            raise RobotError("shown", f"{shown!r} is none of them", expected, value=shown)
+            raise RobotError("shown", f"{shown!r} is neither", expected, value=shown)
         robot = shown if isinstance(shown, Robot) else shown.robot
         shape = shown if isinstance(shown, Shape) else None
         self._server = make_server(port)
