@@ -97,7 +97,8 @@ nb::list profiles_of(const tactr::FrictionSettled& settled) {
 }
 
 nb::object run(tactr::FrictionRounds& rounds, const Vector& tension, const Vector& rotation, const Vector& translation,
-               double tolerance, double residual_tolerance, const tactr::Solution& guess, bool stay) {
+               double tolerance, double residual_tolerance, const tactr::Solution& guess, bool stay, const tactr::FrictionSettled* near,
+               double most_missed) {
     tactr::Solution blank;
     blank.tension = doubles_of(tension, rounds.robot.tendons.size(), "tension");
     blank.rotation = doubles_of(rotation, rounds.robot.tubes.size(), "rotation");
@@ -111,7 +112,7 @@ nb::object run(tactr::FrictionRounds& rounds, const Vector& tension, const Vecto
     bool settled = false;
     {
         nb::gil_scoped_release release;
-        settled = rounds.run(actuation, settings, blank, guess, *found);
+        settled = rounds.run(actuation, settings, blank, guess, {near, most_missed}, *found);
     }
     return settled ? nb::cast(std::move(found)) : nb::none();
 }
@@ -164,7 +165,7 @@ void bind_friction(nb::module_& m) {
                  return out;
              }, "robot"_a, "solution"_a)
         .def("run", &run, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a, "guess"_a, "stay"_a,
-             "All rounds at given tensions; None: not found.")
+             "near"_a = nb::none(), "most_missed"_a = 0.0, "All rounds at given tensions; None: not found, or more missed of the history.")
         .def_ro("missed", &FrictionRounds::missed)
         .def_ro("rounds", &FrictionRounds::rounds);
 
@@ -175,7 +176,7 @@ void bind_friction(nb::module_& m) {
         return nb::make_tuple(array_of(std::move(heat), {count}), array_of(std::move(creep), {count}));
     }, "channels"_a, "before"_a, "after"_a, "By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m.");
     m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
-        return friction_history_missed(channels.list, before, after);
+        return friction_history_missed(channels.list, before, after.wraps, after.solution.tension);
     }, "channels"_a, "before"_a, "after"_a, "What one step misses of log tension that small ones would have seen.");
 }
 

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "chebyshev.hpp"
-#include "sample.hpp"
+#include "newton.hpp"
+#include "tendon_directions.hpp"
 
 namespace tactr {
-
-using Triple = std::array<double, 3>;
 
 /// Where one tendon rubs. pieces: (start, coefficient) of friction; contacts: sigma of its disks; cuts: places where its
 /// routing has wound by so much that directions are fitted anew.
@@ -69,24 +68,27 @@ inline double angle_between(const Triple& a, const Triple& b) {
     return std::atan2(std::sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
 }
 
-/// Fills the wraps of all channels from one sampling of a shape.
+/// Fills the wraps of all channels from one march along a shape.
 class WrapReader {
   public:
     using Joints = std::vector<std::vector<double>>;  // by channel
 
-    WrapReader(const Robot& robot, const std::vector<FrictionChannel>& channels, const Joints& joints, const double* translation)
-        : robot_(robot), channels_(channels), joints_(joints), translation_(translation) {}
+    WrapReader(const std::vector<FrictionChannel>& channels, const Joints& joints) : channels_(channels), joints_(joints) {}
 
-    /// False: the solution cannot be sampled.
-    bool read(const Solution& solution, std::vector<Wrap>& wraps) {
-        find_panels();
-        std::vector<double> places;
-        for (size_t k = 0; k + 1 < edges_.size(); ++k)
-            for (double s : points_between(edges_[k], edges_[k + 1])) places.push_back(s);
-        if (!sample(robot_, solution, places, samples_)) return false;
+    /// The shape as the solver has it: its free end and mesh in the solution, which gets the residual there. False: it
+    /// cannot be marched along.
+    bool read(NewtonSolver& newton, Solution& solution, std::vector<Wrap>& wraps) {
+        find_panels(newton.layout, newton.actuation.translation);
+        TendonDirections seen(newton.robot, newton.layout, places_);
+        BaseState<double> base;
+        if (!newton.watch(solution, seen, base) || !seen.complete()) return false;
+        double turn[4];
+        newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
+        seen.turn(turn);
         wraps.resize(channels_.size());
         for (size_t c = 0; c < channels_.size(); ++c) {
-            place(channels_[c], wraps[c]);
+            const double start = newton.actuation.translation[channels_[c].tube];
+            place(channels_[c], start, newton.robot.tendon_count, seen, wraps[c]);
             if (channels_[c].over_disks) over_disks(channels_[c], wraps[c]);
             else along(channels_[c], wraps[c]);
         }
@@ -97,43 +99,47 @@ class WrapReader {
     static constexpr double SAME_DIRECTION = 1e-5;  // rad: but for the fit
     using Directions = std::array<Triple, CURVE_POINTS>;
 
-    const Robot& robot_;
     const std::vector<FrictionChannel>& channels_;
     const Joints& joints_;
-    const double* translation_;
     const ChebyshevRules& rules_ = ChebyshevRules::get();
-    std::vector<double> edges_;  // s of the panels' ends
-    Samples samples_;
-    int first_ = 0;                       // of the channel's panels
+    std::vector<double> edges_, places_;  // s of the panels' ends, and of all their points
     std::vector<Directions> directions_;  // of the channel, by panel
 
     /// In each of them all directions are smooth: sections, cut at joints and where a routing has wound by much.
-    void find_panels() {
-        const Layout<double> layout = cut_into_sections(robot_, translation_);
+    void find_panels(const Layout<double>& layout, const double* translation) {
         std::vector<double> all{layout.sections.front().proximal};
         for (const auto& section : layout.sections) all.push_back(section.distal);
-        for (size_t c = 0; c < channels_.size(); ++c)
+        double first = all.back(), last = all.front();  // of what any channel takes up
+        for (size_t c = 0; c < channels_.size(); ++c) {
+            const double start = translation[channels_[c].tube];
             for (const auto* places : {&channels_[c].cuts, &joints_[c]})
-                for (double place : *places) all.push_back(place + translation_[channels_[c].tube]);
+                for (double place : *places) all.push_back(place + start);
+            first = std::min(first, start);
+            last = std::max(last, start + channels_[c].end);
+        }
         edges_ = merged(all);
+        const auto outside = [=](double s) { return s < first - EDGE_GAP || s > last + EDGE_GAP; };
+        edges_.erase(std::remove_if(edges_.begin(), edges_.end(), outside), edges_.end());
+        places_.clear();
+        for (size_t k = 0; k + 1 < edges_.size(); ++k)
+            for (double s : points_between(edges_[k], edges_[k + 1])) places_.push_back(s);
     }
 
-    /// The channel's share of the panels, with its directions and rates.
-    void place(const FrictionChannel& channel, Wrap& wrap) {
-        const double base = translation_[channel.tube];
-        first_ = 0;
-        while (0.5 * (edges_[first_] + edges_[first_ + 1]) < base) ++first_;
+    /// The channel's share of the panels, with its directions and rates; base: s of its tube's proximal end.
+    void place(const FrictionChannel& channel, double base, int tendons, const TendonDirections& seen, Wrap& wrap) {
+        size_t k = 0;
+        while (0.5 * (edges_[k] + edges_[k + 1]) < base) ++k;
         wrap.rise.edges.assign(1, 0.0);
         wrap.rate.clear();
         directions_.clear();
-        for (size_t k = first_; k + 1 < edges_.size() && 0.5 * (edges_[k] + edges_[k + 1]) < base + channel.end; ++k) {
+        for (; k + 1 < edges_.size() && 0.5 * (edges_[k] + edges_[k + 1]) < base + channel.end; ++k) {
             wrap.rise.edges.push_back(edges_[k + 1] - base);
             wrap.rate.emplace_back();
             directions_.emplace_back();
             for (int p = 0; p < CURVE_POINTS; ++p) {
-                const TendonRecord& record = samples_.tendon[(k * CURVE_POINTS + p) * samples_.tendons + channel.tendon];
-                wrap.rate.back()[p] = record.rate;
-                std::copy(record.direction, record.direction + 3, directions_.back()[p].begin());
+                const TendonDirection& tendon = seen.found[(k * CURVE_POINTS + p) * tendons + channel.tendon];
+                wrap.rate.back()[p] = tendon.rate;
+                directions_.back()[p] = tendon.direction;
             }
         }
         wrap.rise.edges.back() = channel.end;

@@ -57,6 +57,24 @@ class NewtonSolver {
         return true;
     }
 
+    /// Takes over a solution as it is: its free end, and the mesh that was filled there.
+    void start_at(const Solution& solution) { marched_ = solution.free_end; }
+
+    /// One march without derivatives along the path, its steps seen by an observer; the residual is that of this march.
+    /// False: a section had no equilibrium.
+    template <class Observer>
+    bool watch(Solution& solution, Observer& observer, BaseState<double>& base) {
+        March<double, double> march(robot, layout, actuation, shooting.full_options());
+        shooting.scale(march);
+        march.solver.precision = Precision::checked;
+        tell_shift(solution);
+        if (!march.run(solution.free_end, solution.mesh, observer)) return false;
+        base = march.base;
+        shooting.residual(base, actuation.rotation, residual);
+        solution.base_residual = norm(residual);
+        return std::isfinite(solution.base_residual);
+    }
+
     /// One plain march chooses the steps, starting from one a section.
     void choose_mesh(Solution& solution) {
         cut_mesh(solution);

@@ -14,6 +14,12 @@ namespace {
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
 constexpr double MOST_MIXED = 20.0;   // weight of a pair
 constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
+constexpr double SHARE = 0.1;         // of the residual's tolerance may be missed by wraps
+constexpr double LEAST_AIM = 1e-10;   // rad, but not where the tolerance is less: sections are met no better
+constexpr double SETTLING = 1e-5;     // rad: wraps are known well enough to tell what a step misses
+constexpr double CLOSE = 1e-3;        // rad at the base: the free end is known well enough to read wraps
+
+double aim_of(double tolerance) { return larger(SHARE * tolerance, smaller(tolerance, LEAST_AIM)); }
 
 /// Tension over that at the base, as polynomials.
 void add_pieces(const FrictionProfile& profile, double y0, std::vector<TensionPiece>& out) {
@@ -87,7 +93,7 @@ FrictionRounds::FrictionRounds(const RobotTables<double>& plain, const std::vect
 }
 
 bool FrictionRounds::start(const Solution& solution) {
-    return channels_.empty() || WrapReader(plain_.view(), channels_, joints_, translation_.data()).read(solution, wraps_);
+    return channels_.empty() || read(plain_, solution, wraps_);
 }
 
 void FrictionRounds::start(const FrictionSettled& near, const FrictionSettled* before, double ahead) {
@@ -131,7 +137,20 @@ bool FrictionRounds::measure(const RobotTables<double>& shaped, const Solution& 
     ++rounds;
     missed = 0.0;
     if (channels_.empty()) return true;
-    if (!WrapReader(shaped.view(), channels_, joints_, translation_.data()).read(solution, after_)) return false;
+    return read(shaped, solution, after_) && compare();
+}
+
+bool FrictionRounds::read(const RobotTables<double>& shaped, const Solution& solution, std::vector<Wrap>& wraps) const {
+    Solution here = solution;
+    const Robot view = shaped.view();
+    const Actuation<double> at{here.tension.data(), here.rotation.data(), here.translation.data(), 1.0, 1.0};
+    NewtonSolver newton(view, at, Settings{});
+    newton.start_at(here);
+    return WrapReader(channels_, joints_).read(newton, here, wraps);
+}
+
+bool FrictionRounds::compare() {
+    missed = 0.0;
     numbers_of(wraps_, own_);
     numbers_of(after_, given_);
     size_t n = 0;
@@ -169,25 +188,43 @@ void FrictionRounds::mix(std::vector<double>& tension, const std::vector<double>
 }
 
 bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& settings, const Solution& blank,
-                         const Solution& guess, FrictionSettled& out) {
+                         const Solution& guess, const HistoryLimit& limit, FrictionSettled& out) {
     const std::vector<double> tension(actuation.tension, actuation.tension + robot.tendons.size());
+    const double aim = aim_of(settings.residual_tolerance);
     std::vector<double> none;
-    Solution found, near;
-    const Solution* from = &guess;
+    Solution near = guess;
     while (rounds < MOST_ROUNDS) {
         profile(tension);
-        found = blank;
-        solve(robot.view(), actuation, settings, from, found);
-        if (found.status != Status::converged || !measure(robot, found)) return false;
-        if (missed <= settings.residual_tolerance) {
-            settle(robot, found, out);
-            return true;
+        const Robot view = robot.view();
+        const bool glanced = !channels_.empty() && glance(view, actuation, settings, blank, near);
+        if (glanced && missed < SETTLING && limit.near && friction_history_missed(channels_, *limit.near, after_, tension) > limit.most) return false;
+        if (!glanced || missed <= aim) {
+            Solution found = blank;
+            solve(view, actuation, settings, &near, found);
+            if (found.status != Status::converged) return false;
+            const bool known = glanced && found.mesh.unknowns == 0 && found.mesh.steps == near.mesh.steps && found.mesh.grade == near.mesh.grade;
+            near = std::move(found);
+            if (!known && !measure(robot, near)) return false;
+            if (missed <= aim) {
+                settle(robot, near, out);
+                return true;
+            }
         }
-        near = std::move(found);
-        from = &near;
         mix(none, none);
     }
     return false;
+}
+
+bool FrictionRounds::glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings, const Solution& blank,
+                            Solution& near) {
+    NewtonSolver newton(view, actuation, settings);
+    Solution trial = blank;
+    if (!newton.start_from(near, trial)) return false;
+    if (!WrapReader(channels_, joints_).read(newton, trial, after_) || !(trial.base_residual < CLOSE)) return false;
+    trial.status = Status::converged;  // near enough to go on from
+    near = std::move(trial);
+    ++rounds;
+    return compare();
 }
 
 void FrictionRounds::settle(const RobotTables<double>& shaped, const Solution& solution, FrictionSettled& out) const {
@@ -333,7 +370,7 @@ namespace {
 
 constexpr int LOOKS = 65, PARTS = 8;
 
-/// Of a tendon's path at places alike: its bend, and kinks up to the next place before, times the coefficient.
+/// Of a tendon's path at places alike: its bend, and kinks since the place before, times the coefficient.
 struct Course {
     Triple bend[LOOKS], kink[LOOKS];
 
@@ -350,7 +387,7 @@ struct Course {
         }
         for (size_t k = 0; k < edges.size(); ++k) {
             if (!(wrap.jumps[k] > 0.0)) continue;
-            const int i = std::min(LOOKS - 1, std::max(0, static_cast<int>(std::lround(edges[k] / end * (LOOKS - 1)))));
+            const int i = std::min(LOOKS - 1, static_cast<int>(std::ceil(edges[k] / end * (LOOKS - 1) - 1e-9)));  // not before the edge
             for (int a = 0; a < 3; ++a) kink[i][a] += wrap.kinks[k][a];
         }
     }
@@ -384,14 +421,13 @@ void move_on(const Course& before, const Course& after, double part, double base
     }
 }
 
-double missed_by(const FrictionSettled& before, const FrictionSettled& after, size_t c, int tendon) {
-    if (!after.profiles[c]) return 0.0;
-    const Course first(before.wraps[c]), last(after.wraps[c]);
-    const double end = after.wraps[c].rise.edges.back(), spacing = end / (LOOKS - 1);
+/// from, to: tension at the base before and after.
+double missed_by(const Wrap& before, const Wrap& after, const std::optional<FrictionProfile>& old, double from, double to) {
+    const Course first(before), last(after);
+    const double end = after.rise.edges.back(), spacing = end / (LOOKS - 1);
     double slowly[LOOKS], at_once[LOOKS], worst = 0.0;
     for (int i = 0; i < LOOKS; ++i)
-        slowly[i] = at_once[i] = before.profiles[c] ? before.profiles[c]->log.at(smaller(i * spacing, end - 1e-12)) : NO_TENSION;
-    const double from = before.solution.tension[tendon], to = after.solution.tension[tendon];
+        slowly[i] = at_once[i] = old ? old->log.at(smaller(i * spacing, end - 1e-12)) : NO_TENSION;
     const auto base = [&](double part) { return std::log(larger((1.0 - part) * from + part * to, 1e-300)); };
     for (int k = 1; k <= PARTS; ++k) {
         const double part = static_cast<double>(k) / PARTS;
@@ -405,9 +441,13 @@ double missed_by(const FrictionSettled& before, const FrictionSettled& after, si
 }  // namespace
 
 double friction_history_missed(const std::vector<FrictionChannel>& channels, const FrictionSettled& before,
-                               const FrictionSettled& after) {
+                               const std::vector<Wrap>& wraps, const std::vector<double>& tension) {
     double worst = 0.0;
-    for (size_t c = 0; c < channels.size(); ++c) worst = larger(worst, missed_by(before, after, c, channels[c].tendon));
+    for (size_t c = 0; c < channels.size(); ++c) {
+        const int j = channels[c].tendon;
+        if (!(tension[j] > 0.0)) continue;
+        worst = larger(worst, missed_by(before.wraps[c], wraps[c], before.profiles[c], before.solution.tension[j], tension[j]));
+    }
     return worst;
 }
 

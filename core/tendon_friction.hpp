@@ -25,6 +25,12 @@ struct FrictionSettled {
     std::vector<RoundsPair> pairs;  // of the last rounds
 };
 
+/// A step is given up where it misses more of its history since the equilibrium near by: see friction_history_missed.
+struct HistoryLimit {
+    const FrictionSettled* near = nullptr;  // none: no limit
+    double most = 0.0;                      // of log tension
+};
+
 /// A round: profiles from the wraps by the friction step, the shape at these profiles, the wraps in that shape. The map from
 /// wraps to wraps contracts by about the friction angle; Anderson's mixing (1965) of the last rounds, those of the step
 /// before among them, makes it converge in a few. Wraps are mixed as numbers: rises at points and jumps at joints.
@@ -54,9 +60,10 @@ class FrictionRounds {
     /// Wraps to go on with; and tensions, from those of this round and those to go on with (all over the scale).
     void mix(std::vector<double>& tension, const std::vector<double>& next);
 
-    /// Rounds at given tensions. False: not found.
+    /// Rounds at given tensions, the first of them without solving for the shape anew: the free end follows by the
+    /// neighbour's derivatives. False: not found, or beyond the limit.
     bool run(const Actuation<double>& actuation, const Settings& settings, const Solution& blank, const Solution& guess,
-             FrictionSettled& out);
+             const HistoryLimit& limit, FrictionSettled& out);
 
     void settle(const RobotTables<double>& shaped, const Solution& solution, FrictionSettled& out) const;
 
@@ -74,6 +81,12 @@ class FrictionRounds {
     std::vector<double> last_missed_, last_given_;
     std::vector<RoundsPair> pairs_;
 
+    /// Wraps in the shape at the round's profiles as a neighbour's derivatives tell it. False: they do not lead there; near
+    /// stays, otherwise it moves on.
+    bool glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings, const Solution& blank, Solution& near);
+
+    bool read(const RobotTables<double>& shaped, const Solution& solution, std::vector<Wrap>& wraps) const;
+    bool compare();
     void numbers_of(const std::vector<Wrap>& wraps, std::vector<double>& out) const;
     void add(const std::vector<double>& numbers, std::vector<Wrap>& wraps) const;
 };
@@ -87,8 +100,8 @@ void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionS
 
 /// By how much log tension comes out different where it is moved onto the cone at places on the way, too; the largest of all
 /// channels. The cone between the ends is estimated from curvatures of the tendons' paths and tensions at the base that
-/// change linearly.
+/// change linearly. wraps, tension (tendons,): after the step.
 double friction_history_missed(const std::vector<FrictionChannel>& channels, const FrictionSettled& before,
-                               const FrictionSettled& after);
+                               const std::vector<Wrap>& wraps, const std::vector<double>& tension);
 
 }  // namespace tactr

@@ -184,8 +184,10 @@ class FrictionRounds:
         residual_tolerance: float,
         guess: Solution,
         stay: bool,
+        near: FrictionSettled | None = None,
+        most_missed: float = 0.0,
     ) -> FrictionSettled | None:
-        """All rounds at given tensions; None: not found."""
+        """All rounds at given tensions; None: not found, or more missed of the history since near."""
 
 def friction_heat(
     channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled

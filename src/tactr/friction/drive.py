@@ -156,7 +156,7 @@ class _Driver:
             ahead = before.towards(point, to)
             near, snaps = self._near, False
             assert near is not None
-            settled = self._settle(ahead, state, cold=False)
+            settled = self._settle(ahead, state, cold=False, halves=step > SHORTEST_STEP)
             if settled is not None and step > SHORTEST_STEP and not self._is_fine(near, settled):
                 settled = None
             if settled is None:
@@ -187,7 +187,10 @@ class _Driver:
             profiles[c.index] = profile
         return DriveState(state.tendons, state.tubes, tuple(profiles), given, passed, settled.tubes)
 
-    def _settle(self, given: Actuators, state: DriveState, *, cold: bool) -> Settled | None:
+    def _settle(
+        self, given: Actuators, state: DriveState, *, cold: bool, halves: bool = False
+    ) -> Settled | None:
+        """halves: a step that misses too much of its history need not be found, a shorter one follows."""
         passed = given.through(self._plays, state.passed)
         arrays = passed.tension, passed.rotation, passed.translation
         old = [None if (p := state.profiles[c.index]) is None else p.log for c in self._equilibrium.channels]
@@ -209,7 +212,15 @@ class _Driver:
         near = self._near
         assert near is not None
         return self._equilibrium.settle(
-            old, arrays, pulls, near, near.solution, before=self._before, stay=True, tubes=state.rubbing
+            old,
+            arrays,
+            pulls,
+            near,
+            near.solution,
+            before=self._before,
+            stay=True,
+            most_missed=MOST_MISSED if halves else None,
+            tubes=state.rubbing,
         )
 
     def _is_fine(self, a: Settled, b: Settled) -> bool:

@@ -87,11 +87,14 @@ class Equilibrium:
         *,
         before: Settled | None = None,
         stay: bool,
+        most_missed: float | None = None,
         tubes: TubeFrictionState | None = None,
     ) -> Settled | None:
         """From profiles before, log tension by channel, and where tubes rubbed, at tension,
         rotation, translation (arrays) and displacements, near what was found before, or from a shape without
-        friction. before: what was found before that. None: not found."""
+        friction. before: what was found before that. most_missed: of log tension, of what smaller steps would
+        have seen since near. None: not found, or more was missed; pulled by displacements or with rubbing
+        tubes, that is left to the caller."""
         prepared = self._prepared
         curves = [None if curve is None else (curve.edges, curve.coefficients) for curve in old]
         rounds = _core.FrictionRounds(prepared._core, self.rows, curves, arrays[2])
@@ -103,7 +106,8 @@ class Equilibrium:
             rounds.start_near(near.found, before.found, _ahead(before.arrays, near.arrays, arrays))
         if pulls is None and not self._tubes_rub:
             tolerances = prepared.tolerance, prepared.residual_tolerance
-            found = rounds.run(*arrays, *tolerances, solution, stay)
+            limit = (None, 0.0) if near is None or most_missed is None else (near.found, most_missed)
+            found = rounds.run(*arrays, *tolerances, solution, stay, *limit)
             return None if found is None else Settled(found, arrays)
         return _Rounds(self, rounds, arrays, pulls, stay, tubes).run(solution)
 
