@@ -17,7 +17,6 @@ constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
 constexpr double SHARE = 0.1;         // of the residual's tolerance may be missed by wraps
 constexpr double LEAST_AIM = 1e-10;   // rad, but not where the tolerance is less: sections are met no better
 constexpr double SETTLING = 1e-5;     // rad: wraps are known well enough to tell what a step misses
-constexpr double CLOSE = 1e-3;        // rad at the base: the free end is known well enough to read wraps
 
 double aim_of(double tolerance) { return larger(SHARE * tolerance, smaller(tolerance, LEAST_AIM)); }
 
@@ -145,7 +144,7 @@ bool FrictionRounds::read(const RobotTables<double>& shaped, const Solution& sol
     const Robot view = shaped.view();
     const Actuation<double> at{here.tension.data(), here.rotation.data(), here.translation.data(), 1.0, 1.0};
     NewtonSolver newton(view, at, Settings{});
-    newton.start_at(here);
+    if (!newton.take_over(solution, here)) return false;
     return WrapReader(channels_, joints_).read(newton, here, wraps);
 }
 
@@ -193,38 +192,46 @@ bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& set
     const double aim = aim_of(settings.residual_tolerance);
     std::vector<double> none;
     Solution near = guess;
+    bool solved = false;
     while (rounds < MOST_ROUNDS) {
         profile(tension);
         const Robot view = robot.view();
-        const bool glanced = !channels_.empty() && glance(view, actuation, settings, blank, near);
-        if (glanced && missed < SETTLING && limit.near && friction_history_missed(channels_, *limit.near, after_, tension) > limit.most) return false;
-        if (!glanced || missed <= aim) {
+        const Glance seen = channels_.empty() ? Glance::failed : glance(view, actuation, settings, blank, solved, near);
+        const auto too_long = [&] {
+            return missed < SETTLING && limit.near && friction_history_missed(channels_, *limit.near, after_, tension) > limit.most;
+        };
+        if (seen != Glance::failed && too_long()) return false;
+        if (seen == Glance::failed || (seen == Glance::rigid && missed <= aim)) {
             Solution found = blank;
             solve(view, actuation, settings, &near, found);
             if (found.status != Status::converged) return false;
-            const bool known = glanced && found.mesh.unknowns == 0 && found.mesh.steps == near.mesh.steps && found.mesh.grade == near.mesh.grade;
+            const bool known = seen == Glance::rigid && found.mesh.steps == near.mesh.steps && found.mesh.grade == near.mesh.grade;
             near = std::move(found);
-            if (!known && !measure(robot, near)) return false;
-            if (missed <= aim) {
-                settle(robot, near, out);
-                return true;
-            }
+            solved = true;
+            if (!known && (!measure(robot, near) || too_long())) return false;
+        }
+        if (missed <= aim && solved && near.base_residual <= settings.residual_tolerance) {
+            settle(robot, near, out);
+            return true;
         }
         mix(none, none);
     }
     return false;
 }
 
-bool FrictionRounds::glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings, const Solution& blank,
-                            Solution& near) {
+FrictionRounds::Glance FrictionRounds::glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings,
+                                              const Solution& blank, bool solved, Solution& near) {
     NewtonSolver newton(view, actuation, settings);
-    Solution trial = blank;
-    if (!newton.start_from(near, trial)) return false;
-    if (!WrapReader(channels_, joints_).read(newton, trial, after_) || !(trial.base_residual < CLOSE)) return false;
-    trial.status = Status::converged;  // near enough to go on from
+    const bool rigid = newton.shooting.unknowns == 0;
+    if (!rigid && !solved) return Glance::failed;
+    Solution trial = rigid ? blank : near;
+    if (!newton.take_over(near, trial) || (!rigid && !newton.step_by_derivatives(trial))) return Glance::failed;
+    if (newton.shooting.distance(near.free_end, trial.free_end) > NewtonSolver::CLOSE) return Glance::failed;
+    if (!WrapReader(channels_, joints_).read(newton, trial, after_)) return Glance::failed;
+    trial.status = Status::converged;
     near = std::move(trial);
     ++rounds;
-    return compare();
+    return compare() ? (rigid ? Glance::rigid : Glance::carried) : Glance::failed;
 }
 
 void FrictionRounds::settle(const RobotTables<double>& shaped, const Solution& solution, FrictionSettled& out) const {

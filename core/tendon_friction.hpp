@@ -81,9 +81,12 @@ class FrictionRounds {
     std::vector<double> last_missed_, last_given_;
     std::vector<RoundsPair> pairs_;
 
-    /// Wraps in the shape at the round's profiles as a neighbour's derivatives tell it. False: they do not lead there; near
-    /// stays, otherwise it moves on.
-    bool glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings, const Solution& blank, Solution& near);
+    /// Wraps in the shape at the round's profiles, without solving for it. rigid: no free end is unknown, only the
+    /// discretisation error is; carried: the free end as the derivatives of the solution near by tell it, which is that of
+    /// this settling; failed: neither, or too far from it; near is what was found.
+    enum class Glance { failed, rigid, carried };
+    Glance glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings, const Solution& blank, bool solved,
+                  Solution& near);
 
     bool read(const RobotTables<double>& shaped, const Solution& solution, std::vector<Wrap>& wraps) const;
     bool compare();
