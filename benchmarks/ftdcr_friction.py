@@ -1,11 +1,13 @@
-"""The real robot of ftdcr.py driven along its recording with friction of its tendons: what that changes.
+"""The real robot of ftdcr.py driven along its recording with friction or backlash: what that changes.
 
-    python benchmarks/ftdcr_friction.py                      # minutes for every coefficient above 0
-    python benchmarks/ftdcr_friction.py --friction 0.05 0.2 --every 6
+    python benchmarks/ftdcr_friction.py --every 24 --friction 0.05 0.2    # 5 minutes: friction is slow
+    python benchmarks/ftdcr_friction.py --every 1 --friction --fit        # backlash on all rows, 2 minutes
 
-All numbers but the coefficient are those of the robot ftdcr_calibrated, which was calibrated without friction
-on rows of all the recording: nothing is fitted here, and nothing held out. Every so many rows are driven
-along in their order, with linear displacements in between, from rest.
+Every so many rows are driven along in their order, with linear displacements in between, from rest, once for
+every coefficient of all tendons and every backlash of all motors. The one that fits the first part of the
+rows best is chosen, and judged on the rest, which is held out from that choice. All other numbers are those
+of the robot ftdcr_calibrated: calibrated without friction, on rows of all the recording. With --fit one
+backlash of all motors is calibrated on the first part, with its standard error.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ import ftdcr
 import numpy as np
 
 import tactr
-from tactr import Frame
+from tactr import Frame, Measurements, Parameter, Robot
 
 FRAME = Frame(position=(0.269e-3, 1.950e-3, 1.606e-3), rotation=tuple(np.radians((0.341, -2.291, 0.0))))
 
@@ -29,8 +31,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--friction", type=float, nargs="+", default=[0.0, 0.05], help="coefficients")
+    parser.add_argument("--friction", type=float, nargs="*", default=[0.05], help="coefficients")
+    parser.add_argument(
+        "--play", type=float, nargs="*", default=[0.03, 0.04, 0.05, 0.06, 0.08, 0.1], help="in mm"
+    )
     parser.add_argument("--every", type=int, default=6, help="one of so many rows")
+    parser.add_argument("--train", type=float, default=0.5, help="share of the rows that choose")
+    parser.add_argument("--fit", action="store_true", help="calibrate the backlash, too")
     options = parser.parse_args(arguments)
     if not ftdcr.DATA.is_dir():
         print(
@@ -39,25 +46,54 @@ def main(arguments: Sequence[str] | None = None) -> None:
         )
         return
     data = ftdcr.load()[1].rows(slice(0, None, options.every))
-    robot = tactr.examples.load("ftdcr_calibrated")
+    train = round(options.train * len(data))
+    print(f"{len(data)} rows, {train} to choose by, {len(data) - train} held out", flush=True)
+    tried = [{}, *({"play": 1e-3 * play} for play in options.play)]
+    tried += [{"friction": coefficient} for coefficient in options.friction]
+    errors = [_driven(data, train, fields) for fields in tried]
+    best = int(np.argmin([np.nanmean(error[:train]) for error in errors]))
+    plain, chosen = (float(np.nanmean(errors[k][train:])) for k in (0, best))
+    print(f"chosen: {_told(tried[best])}; held out {chosen:.3f} mm, {plain:.3f} mm without friction and play")
+    if options.fit:
+        _fit(data, train)
+
+
+def _driven(data: Measurements, train: int, fields: dict[str, float]) -> np.ndarray:
+    """Error of every row, (n,), mm."""
+    robot: Robot = tactr.examples.load("ftdcr_calibrated")
     path = {"displacement": np.stack([data.displacement[tendon.name] for tendon in robot.tendons], axis=1)}
+    changed = robot.replace(tendons=tuple(replace(tendon, **fields) for tendon in robot.tendons))
+    start = perf_counter()
+    driven = tactr.drive(changed, path, stations=2)
+    elapsed = perf_counter() - start
     measured = data.points[:, 0]
+    residual = 1e3 * (driven.tips @ FRAME.matrix.T + np.array(FRAME.position) - measured)
+    error = np.linalg.norm(residual, axis=1)
+    error[[bool(text) for text in driven.failed]] = np.nan
     moved = np.gradient(measured, axis=0)
     speed = np.linalg.norm(moved, axis=1)
     moving = speed > 1e-3
-    for coefficient in options.friction:
-        rubbing = robot.replace(tendons=tuple(replace(t, friction=coefficient) for t in robot.tendons))
-        start = perf_counter()
-        driven = tactr.drive(rubbing, path, stations=2)
-        elapsed = perf_counter() - start
-        residual = driven.tips @ FRAME.matrix.T + np.array(FRAME.position) - measured
-        error = 1e3 * np.linalg.norm(residual, axis=1)
-        ahead = 1e3 * (residual * moved).sum(axis=1)[moving] / speed[moving]
-        print(
-            f"friction {coefficient:g}: {driven}, {elapsed:.0f} s; mean error {np.nanmean(error):.3f} mm, "
-            f"{np.nanmean(ahead):.3f} mm ahead; creep up to {1e3 * driven.creep.max():.2f} mm",
-            flush=True,
-        )
+    ahead = (residual * moved).sum(axis=1)[moving] / speed[moving]
+    print(
+        f"{_told(fields)}: {driven}, {elapsed:.0f} s; mean error {np.nanmean(error[:train]):.3f} mm of the "
+        f"rows to choose by, {np.nanmean(error[train:]):.3f} mm held out, {np.nanmean(error):.3f} mm in all, "
+        f"{np.nanmean(ahead):.3f} mm ahead; creep up to {1e3 * driven.creep.max():.2f} mm",
+        flush=True,
+    )
+    return error
+
+
+def _fit(data: Measurements, train: int) -> None:
+    play = Parameter("tendons.*.play", common=True, start=5e-5)
+    robot = tactr.examples.load("ftdcr_calibrated")
+    fit = tactr.calibrate(robot, data.rows(slice(train)), parameters=[play], frame=FRAME, history=True)
+    print(f"{fit}\nheld out {1e3 * np.nanmean(fit.errors(data)[train:]):.3f} mm")
+
+
+def _told(fields: dict[str, float]) -> str:
+    units = {"play": (1e3, " mm"), "friction": (1.0, "")}
+    parts = [f"{name} {value * units[name][0]:g}{units[name][1]}" for name, value in fields.items()]
+    return ", ".join(parts) or "nothing"
 
 
 if __name__ == "__main__":

@@ -58,7 +58,7 @@ class NewtonSolver {
         if (!fits) return false;
         solution.free_end = guess.free_end;
         solution.mesh = guess.mesh;
-        marched_ = guess.free_end;
+        solution.mesh.marched = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
         return true;
     }
@@ -205,7 +205,6 @@ class NewtonSolver {
     }
 
   private:
-    FreeEnd<double> marched_;  // free end of the last march that filled the mesh
     Kind kind_ = Kind::rough;         // of the last march
     Kind estimate_ = Kind::exact;     // of the march that estimated the discretisation error
     bool careful_ = false;            // no more rough marches
@@ -222,8 +221,8 @@ class NewtonSolver {
     bool plain_march(Solution& solution, const Actuation<double>& at, BaseState<double>& base);
 
     void tell_shift(Solution& solution) {
-        shooting.difference(marched_, solution.free_end, solution.mesh.shift);
-        marched_ = solution.free_end;
+        shooting.difference(solution.mesh.marched, solution.free_end, solution.mesh.shift);
+        solution.mesh.marched = solution.free_end;
     }
 
     /// Steps with the neighbour's derivatives: for the change of the rotations, which needs no march, then for what one

@@ -275,6 +275,7 @@ class SectionSolver {
         for (int iteration = 0; iteration < SECTION_ITERATIONS; ++iteration) {
             evaluate_wrenches(section, e);
             const double worst = residual(section, z, packing, total, tube);
+            if (iteration == 0 && !std::isfinite(worst)) return false;  // there is nothing yet to go back to
             if (LANES == 0 && precision == Precision::rough && worst < CLOSE_ENOUGH) return true;
             if (worst <= SECTION_TOLERANCE) {
                 worst_residual = larger(worst_residual, worst);

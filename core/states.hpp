@@ -58,6 +58,7 @@ struct Mesh {
     std::vector<Strains> strains;
     std::vector<double> slopes;  // stage-major, unknowns innermost
     int unknowns = 0;            // 0: no slopes
+    FreeEnd<double> marched{};   // of the last march that filled it
     double shift[MAX_UNKNOWNS] = {};
     bool warm = false;
 

@@ -119,3 +119,29 @@ def test_mistakes(run, files, words, told):
 def test_no_data(run, files):
     code, _, err = run("calibrate", str(files[0]), "none.csv", "--free", "tubes.rod.E")
     assert code == 2 and "no such file" in err
+
+
+def test_backlash_and_compliance_from_files(run, tmp_path):
+    """From a loop of one motor, made with other numbers; without --history the error says so."""
+    truth = motor_robot(play=0.6e-3, compliance=3e-4)
+    pulls = np.array([1.0, 3.0, 6.0, 5.8, 4.0, 1.5])
+    tips = tactr.drive(truth, [{"displacement": {"pull": 1e-3 * pull}} for pull in pulls], stations=2).tips
+    tips += np.random.default_rng(2).normal(0.0, 1e-4, tips.shape)
+    rows = [
+        ",".join(map(repr, map(float, (pull, *(1e3 * tip))))) for pull, tip in zip(pulls, tips, strict=True)
+    ]
+    data, start, saved = tmp_path / "loop.csv", tmp_path / "start.yaml", tmp_path / "found.yaml"
+    data.write_text("\n".join(["displacement.pull [mm],tip.x [mm],tip.y [mm],tip.z [mm]", *rows]) + "\n")
+    tactr.save(motor_robot(play=0.2e-3, compliance=2e-4), start)
+    free = ("--free", "tendons.pull.play", "tendons.pull.compliance")
+    code, out, err = run("calibrate", str(start), str(data), *free, "--history", "--save", str(saved))
+    assert (code, err) == (0, "") and "6 rows, one path from rest" in out
+    pull = tactr.load(saved).tendons[0]  # pyright: ignore[reportAttributeAccessIssue]
+    assert pull.play == pytest.approx(0.6e-3, rel=0.1) and pull.compliance == pytest.approx(3e-4, rel=0.1)
+    code, out, err = run("calibrate", str(start), str(data), *free)
+    assert code == 2 and out == "" and "tendons.pull.play" in err and "--history" in err
+
+
+def motor_robot(**fields) -> Robot:
+    rod = Tube("rod", length=0.2, section=Rod(2e-3), material=Material(E=55e9, nu=0.3))
+    return Robot([rod], [Tendon("pull", "rod", Straight(5e-3, 0.0), **fields)])

@@ -116,6 +116,29 @@ def test_loading_ends_where_a_solve_from_cold_does(reproduction):
     assert y == pytest.approx(51.7, abs=0.1)
 
 
+def test_assumed_friction_opens_a_loop(reproduction):
+    """A tendon that rubs pulls less at the tip than the motor does, and more on the way back."""
+    experiment = reproduction["loading"]
+    for graph, axis in zip(experiment.figure[0][1:], (1, 0), strict=True):
+        plain, _, loading, unloading = graph.lines
+        without = np.interp(loading.x, plain.x, plain.y)
+        assert loading.x[0] == 0.0 and (loading.y[1:] < without[1:]).all(), axis
+        assert (unloading.y[1:-1] > without[1:-1]).all(), axis
+    outer = experiment.figure[0][1].lines[2]
+    # Far from the others the outer tendon bends its tube by 3 N (1 - exp(-mu theta)) / (mu theta) on average.
+    shape = experiment.cases[0].shape
+    bend = tactr.solve(shape.robot, tension=[3.0, 0.0])
+    theta = np.arccos(bend.sample([0.14]).tubes[0].frames[0][2, 2])
+    mean = (1.0 - np.exp(-0.15 * theta)) / (0.15 * theta)
+    less = tactr.solve(shape.robot, tension=[3.0 * mean, 0.0]).tip_position[1]
+    assert outer.y[-1] == pytest.approx(1e3 * less, abs=0.5)
+    effect = experiment.effects[0]
+    assert effect.fields[0] == "tendons[0].friction" and "assumed" in experiment.setting
+    (move,) = effect.moves
+    assert move.less is not None and move.more is not None
+    assert move.more == pytest.approx(2.0 * move.less, rel=0.15)  # half less and once more, nearly linear
+
+
 def test_assignments_are_as_far_apart_as_their_errors_allow(reproduction):
     a, b = (case.shape.tip_position for case in reproduction["assignment"].cases)
     assert 34.28e-3 - 4.69e-3 < np.linalg.norm(a - b) < 34.28e-3 + 4.69e-3

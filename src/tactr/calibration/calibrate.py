@@ -11,7 +11,9 @@ import numpy as np
 
 from tactr.calibration.checks import after, before
 from tactr.calibration.curvature import rough_intervals
+from tactr.calibration.driven_model import DrivenModel
 from tactr.calibration.frame import Frame
+from tactr.calibration.history import with_history, without_history
 from tactr.calibration.hold_out import Folds, HoldOut, fold_labels, hold_out_of
 from tactr.calibration.identify import knowledge
 from tactr.calibration.measurements import Measurements, Remark
@@ -39,6 +41,7 @@ def calibrate(
     loss: Loss = "linear",
     starts: int = 1,
     folds: Folds | None = None,
+    history: bool = False,
     tolerance: float = 1e-6,
     progress: Progress | None = None,
 ) -> Calibration:
@@ -50,18 +53,21 @@ def calibrate(
     loss: "linear" (least squares), or for data with outliers "huber", "soft_l1" or "cauchy". starts: of the
     search, the first where the robot is, the others spread over bounds, or two scales to each side. folds: a
     number of blocks of successive rows, "group", or a mask of rows: each is predicted by a calibration on
-    the other rows. tolerance: as in ``solve``. Motors' zeros end as rest lengths in the calibrated robot.
-    Raises RobotError for parameters or data that do not fit the robot, FileError.
+    the other rows. history: rows are one path in the order of time, from rest, which ``drive`` follows with
+    friction and backlash ("tendons.outer.friction", "tendons.outer.play"); derivatives are then differences,
+    and rows cannot be held out. tolerance: as in ``solve``. Motors' zeros end as rest lengths in the
+    calibrated robot. Raises RobotError for parameters or data that do not fit the robot, FileError.
     """
     data = measurements if isinstance(measurements, Measurements) else Measurements.read(measurements)
     frame = Frame() if frame is None else frame
     frees = expanded(robot, parameters, list(data.displacement), frame)
     _check_options(noise, loss, starts)
     remarks = before(robot, frame, data, frees)
+    remarks += with_history(data, frees, folds) if history else without_history(robot, frees)
     labels = None if folds is None else fold_labels(data, folds)
     origin = np.array([free.start for free in frees])
     tick = _ticker(progress, len(data))
-    model = Model(robot, frame, data, frees, tolerance)
+    model = (DrivenModel if history else Model)(robot, frame, data, frees, tolerance)
     first = model.predict(origin, tick("start"))
     found, costs = _best(model, frees, noise, loss, starts, tick)
     known = knowledge(frees, found.jacobian, found.noise, found.held)

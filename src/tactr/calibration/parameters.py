@@ -11,7 +11,7 @@ from typing import Any
 
 from tactr.calibration.frame import Frame
 from tactr.errors import RobotError
-from tactr.io.path_kinds import kind_of
+from tactr.io.path_kinds import kind_of, last_word
 from tactr.io.unit_table import Kind
 from tactr.robot import Robot
 from tactr.robot import _check as check
@@ -37,7 +37,11 @@ LEAST_SCALE = {
     "curvature": 1.0,
     "number": 0.1,
 }
-NEVER_NEGATIVE = ("compliance", "pretension", "radius", "tension", "nu")
+LEAST_SCALE_OF_PLAY = {"play": 1e-3, "translation_play": 1e-3, "rotation_play": 0.05}
+NEVER_NEGATIVE = (
+    "compliance", "pretension", "radius", "tension", "nu", "friction", "coefficient", "play", "rotation_play",
+    "translation_play",
+)  # fmt: skip
 POSITIVE = (
     "E", "G", "density", "linear_density", "EI_x", "EI_y", "GJ", "EA", "GA", "length", "rest_length", "end",
     "diameter", "outer_diameter",
@@ -164,7 +168,7 @@ def _walk(owner: Any, path: str, paths: list[str]) -> None:
 
 def _free(robot: Robot, frame: Frame, parameter: Parameter, paths: Sequence[str]) -> Free:
     name = parameter.path if len(paths) > 1 else paths[0]
-    kind, last = kind_of(robot, paths[0]), paths[0].rpartition(".")[2]
+    kind, last = kind_of(robot, paths[0]), last_word(paths[0])
     values = [_value(robot, frame, path) for path in paths]
     start = parameter.start if parameter.start is not None else sum(values) / len(values)
     lower, upper = parameter.lower, parameter.upper
@@ -180,7 +184,8 @@ def _free(robot: Robot, frame: Frame, parameter: Parameter, paths: Sequence[str]
         )
     scale = parameter.scale
     if scale is None:
-        scale = max(abs(start), LEAST_SCALE.get(kind.name, 0.0)) or 1.0
+        least = LEAST_SCALE_OF_PLAY.get(last, LEAST_SCALE.get(kind.name, 0.0))
+        scale = max(abs(start), least) or 1.0
         if parameter.prior is not None:
             scale = max(scale, parameter.prior[1])
     return Free(name, tuple(paths), start, lower, upper, parameter.prior, scale, kind)

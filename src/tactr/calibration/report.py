@@ -53,6 +53,7 @@ def as_data(result: Calibration) -> dict[str, Any]:
         "frame": {name: list(getattr(result.frame, name)) for name in ("marker", "position", "rotation")},
         "noise": result.noise,
         "rows": len(result.measurements),
+        "history": result.history,
         "error": _summary(result.error, result.length),
         "hold_out": None
         if held is None
@@ -113,7 +114,8 @@ def _strong(result: Calibration) -> list[tuple[str, str, float]]:
 
 
 def _scores(result: Calibration) -> str:
-    lines = [f"{len(result.measurements)} rows, noise of a coordinate {result.noise * 1e3:.4g} mm"]
+    rows = f"{len(result.measurements)} rows{', one path from rest' if result.history else ''}"
+    lines = [f"{rows}, noise of a coordinate {result.noise * 1e3:.4g} mm"]
     lines.append(f"error: {_told(_summary(result.error, result.length))}")
     held = result.hold_out
     if held is not None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tactr.calibration.driven_model import DrivenModel
 from tactr.calibration.frame import Frame
 from tactr.calibration.hold_out import HoldOut, distances
 from tactr.calibration.identify import Knowledge, Unseen
@@ -47,7 +48,8 @@ class Calibration:
     unseen: combinations of free numbers that the data do not see. noise: standard deviation of a coordinate,
     m. residual: (n, k, 3) m, prediction - measurement, NaN where there is none. tension: (n, tendons) N, in
     the model. hold_out: see ``HoldOut``, None without folds. remarks: what to know of data and result.
-    left: what each start left, m, root mean square, the best first. measurements: as given.
+    left: what each start left, m, root mean square, the best first. measurements: as given. history: whether
+    rows were driven along in their order.
     """
 
     robot: Robot
@@ -63,6 +65,7 @@ class Calibration:
     left: tuple[float, ...]
     measurements: Measurements
     tolerance: float
+    history: bool
 
     @classmethod
     def of(
@@ -98,6 +101,7 @@ class Calibration:
             left=left,
             measurements=model.measured,
             tolerance=model.tolerance,
+            history=isinstance(model, DrivenModel),
         )
 
     @property
@@ -118,8 +122,10 @@ class Calibration:
         raise KeyError(f"{name!r} is not free; free are {', '.join(e.name for e in self.estimates)}")
 
     def predict(self, measurements: Measurements) -> np.ndarray:
-        """Points of other rows in the sensor's axes, (n, k, 3) m; NaN in rows without an equilibrium."""
-        return Model(self.robot, self.frame, measurements, (), self.tolerance).predict(np.array([]))
+        """Points of other rows in the sensor's axes, (n, k, 3) m; NaN in rows without an equilibrium. With a
+        history the rows are a path, from rest."""
+        model = DrivenModel if self.history else Model
+        return model(self.robot, self.frame, measurements, (), self.tolerance).predict(np.array([]))
 
     def errors(self, measurements: Measurements) -> np.ndarray:
         """Mean distance of predicted from measured points of other rows, (n,), m."""

@@ -37,6 +37,7 @@ class Request:
     loss: str
     starts: int
     folds: str | None
+    history: bool
     json: bool
     save: Path | None
     plot: Path | None
@@ -62,6 +63,7 @@ def run_calibrate(request: Request) -> int:
             loss=request.loss,  # pyright: ignore[reportArgumentType]
             starts=request.starts,
             folds=_folds(request.folds),
+            history=request.history,
             progress=progress,
         )
     _write(result, request)

@@ -103,6 +103,8 @@ Usage: tactr calibrate FILE DATA.csv --free PATH... [OPTIONS]
   --loss NAME              linear (least squares), or huber, soft_l1, cauchy for data with outliers
   --starts N               starts of the search, for problems that are not convex; default 1
   --folds N                predict each of N blocks of rows from the others, or "group": each group
+  --history                rows are one path in time, from rest, with friction and backlash: to find
+                           tendons.left.friction, tendons.left.play
 
   --json                   print the result as JSON instead of a report
   --save FILE.yaml         write the calibrated robot

@@ -2,27 +2,35 @@
 
 from __future__ import annotations
 
+import re
+
 from tactr.io.unit_table import KINDS, Kind
 from tactr.robot import DistributedLoad, Robot
 
 KIND_OF = {  # by the last word of a path; lengths otherwise
     "modulus": ("E", "G"),
-    "number": ("nu", "neutral_axis"),
+    "number": ("nu", "neutral_axis", "friction", "coefficient"),
     "density": ("density",),
     "linear density": ("linear_density",),
     "force": ("tension", "pretension"),
     "compliance": ("compliance",),
-    "angle": ("rotation", "phase", "rx", "ry", "rz"),
+    "angle": ("rotation", "rotation_play", "phase", "rx", "ry", "rz"),
     "angle rate": ("rate",),
     "bending or torsional stiffness": ("EI_x", "EI_y", "GJ"),
     "axial or shear stiffness": ("EA", "GA"),
 }
+PIECE_OF_FRICTION = re.compile(r".*\.friction\.\d+\.1")
 INSIDE = {"precurvature": "curvature", "force": "force", "moment": "moment", "acceleration": "acceleration"}
+
+
+def last_word(path: str) -> str:
+    """Of a path; "coefficient" for that of a piece of a tendon's friction."""
+    return "coefficient" if PIECE_OF_FRICTION.fullmatch(path) else path.rpartition(".")[2]
 
 
 def kind_of(robot: Robot, path: str) -> Kind:
     """The kind of quantity that a path of the robot names, which may hold *."""
-    last = path.rpartition(".")[2]
+    last = last_word(path)
     for step, kind in INSIDE.items():
         if f".{step}." in path:
             return KINDS[f"{kind} per length" if _is_along(robot, path) else kind]

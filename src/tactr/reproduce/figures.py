@@ -174,11 +174,11 @@ def _name_tips(axes: Any, panel: Panel) -> None:
 
 def _draw_graph(axes: Any, graph: Graph) -> None:
     for line in graph.lines:
-        style = {"ls": (0, (4, 3)), "lw": 1.6} if line.dashed else {"lw": 4.5}
+        style = {"ls": (0, (4, 3)), "lw": 1.6} if line.dashed else {"lw": 2.0 if line.thin else 4.5}
         axes.plot(line.x, line.y, color=line.colour, label=line.label, **style)
     axes.set(xlabel=graph.x_label, ylabel=graph.y_label)
     axes.set_title(graph.title, fontsize=12, fontweight="bold")
-    axes.legend(frameon=False, fontsize=10)
+    axes.legend(frameon=False, fontsize=10, handlelength=1.4, labelspacing=0.3)
     _plain(axes)
 
 

@@ -122,13 +122,14 @@ class Panel:
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """A line of a graph; friction, once it is modelled, is one line more."""
+    """A line of a graph. dashed, thin: how it is drawn."""
 
     label: str
     x: np.ndarray
     y: np.ndarray
     colour: str
     dashed: bool = False
+    thin: bool = False
 
 
 @dataclass(frozen=True)

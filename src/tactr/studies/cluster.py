@@ -20,6 +20,15 @@ if TYPE_CHECKING:
 AHEAD = 3  # chunks for each thread of the cluster that are asked for at a time
 MOST_TRIES = 20  # of one chunk on workers that died under it
 PATIENCE = 30.0  # s to wait for a scheduler, and for the first worker
+OWN_CLUSTER = {
+    "distributed.scheduler.allowed-failures": MOST_TRIES,
+    "distributed.logging.distributed": "error",
+    # a dashboard would show these; without one they only cost a tenth of a core
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "500ms",
+    "distributed.admin.system-monitor.interval": "5s",
+    "distributed.worker.memory.monitor-interval": "2s",
+}
 
 
 class ClusterError(TactrError):
@@ -80,12 +89,8 @@ def _client(distributed: Any, cluster: str | None, workers: int | None) -> Itera
     if cluster is None:
         from dask import config
 
-        settings = {
-            "distributed.scheduler.allowed-failures": MOST_TRIES,
-            "distributed.logging.distributed": "error",
-        }
         with (
-            config.set(settings),
+            config.set(OWN_CLUSTER),
             distributed.LocalCluster(
                 n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1"
             ) as own,

@@ -42,9 +42,10 @@ class Store:
     """A store that is open for writing, by one process at a time; a context manager."""
 
     def __init__(self, path: Path, study: Study, group: Any) -> None:
-        self.path, self._study, self._group = path, study, group
+        self.path, self._study = path, study
         self._lock = _locked(path)
-        self._done = group[DONE][:]
+        self._arrays = dict(group.arrays())
+        self._done = self._arrays[DONE][:]
         for left in path.glob("*/**/*.partial"):  # of writes that were killed
             left.unlink()
 
@@ -57,11 +58,11 @@ class Store:
         """Put a chunk's arrays on the disk, then mark it."""
         start, stop = self._study.span(chunk)
         for name, values in arrays.items():
-            self._group[name][start:stop] = values
+            self._arrays[name][start:stop] = values
         for name in arrays:
             _sync(self.path / name / "c" / str(chunk))
         self._done[chunk] = 1
-        self._group[DONE][:] = self._done
+        self._arrays[DONE][:] = self._done
         _sync(self.path / DONE / "c" / "0")
 
     def close(self) -> None:
