@@ -22,7 +22,7 @@ def study(samples: int) -> Study:
     tensions = [Range(f"tendons.{tendon.name}.tension", 0.0, 3.0) for tendon in robot.tendons]
     turns = [Range(f"tubes.{tube.name}.rotation", -3.0, 3.0) for tube in robot.tubes]
     return Study(
-        robot, [*tensions, *turns], samples=Samples(samples), chunk=1024,
+        robot, [*tensions, *turns], samples=Samples(samples),
         outputs=["tip", "stability", "jacobian"],
     )  # fmt: skip
 
