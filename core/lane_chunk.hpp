@@ -54,9 +54,9 @@ class LaneChunk {
     /// take(item, solution, sure): for every configuration that was solved; sure: that it is stable.
     template <class F>
     void solve(F&& take) {
-        run(1);
+        run(LANES_BEGIN);
         for (Job& job : jobs_) job.pending = job.results[LaneResults::ALIVE] == 1.0 && choose_steps(job);
-        for (int round = 0; round < MOST_ROUNDS && run(0); ++round)
+        for (int round = 0; round < MOST_ROUNDS && run(round == 0 ? LANES_FAR : LANES_NEAR); ++round)
             for (Job& job : jobs_)
                 if (job.pending) judge(job, take);
     }
@@ -107,23 +107,25 @@ class LaneChunk {
     }
 
     /// All that is pending, in packs. False: nothing was.
-    bool run(int begin) {
+    bool run(LanePhase phase) {
         std::vector<Job*> order;
         for (Job& job : jobs_)
             if (job.pending) order.push_back(&job);
         std::stable_sort(order.begin(), order.end(), [](const Job* a, const Job* b) {
-            return a->plan != b->plan ? a->plan < b->plan : a->steps < b->steps;
+            if (a->plan != b->plan) return a->plan < b->plan;
+            if (a->steps != b->steps) return a->steps < b->steps;
+            return a->results[LaneResults::BASE_RESIDUAL] < b->results[LaneResults::BASE_RESIDUAL];
         });
         for (std::size_t first = 0; first < order.size();) {
             std::size_t end = first;
             while (end < order.size() && end < first + unit_.width && order[end]->plan == order[first]->plan && order[end]->steps == order[first]->steps) ++end;
-            run_pack(&order[first], static_cast<int>(end - first), begin);
+            run_pack(&order[first], static_cast<int>(end - first), phase);
             first = end;
         }
         return !order.empty();
     }
 
-    void run_pack(Job* const* jobs, int count, int begin) {
+    void run_pack(Job* const* jobs, int count, LanePhase phase) {
         LanePlan& plan = plans_[jobs[0]->plan];
         std::size_t stages = 0;
         for (int k = 0; k < plan.section_count; ++k) {
@@ -139,7 +141,7 @@ class LaneChunk {
             for (int n = 0; n < plan.numbers; ++n) numbers[n * width + l] = rows_[job.row + n];
             for (int r = 0; r < LaneResults::ROWS; ++r) results[r * width + l] = job.results[r];
         }
-        if (const int error = unit_.door(&plan, begin, static_cast<long>(width), static_cast<long>(memory_rows), numbers, memory, results))
+        if (const int error = unit_.door(&plan, phase, static_cast<long>(width), static_cast<long>(memory_rows), numbers, memory, results))
             throw std::runtime_error("the device failed with error " + std::to_string(error));
         for (int l = 0; l < count; ++l)
             for (int r = 0; r < LaneResults::ROWS; ++r) jobs[l]->results[r] = results[r * width + l];

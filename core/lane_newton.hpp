@@ -2,6 +2,7 @@
 // left to the solver of single configurations; what counts as found passes the same checks as there.
 #pragma once
 #include "lane_march.hpp"
+#include "stride.hpp"
 
 namespace tactr {
 
@@ -13,10 +14,18 @@ class LaneNewton {
         for (int l = 0; l <= N; ++l) memory_.shift[l] = R(0.0);
     }
 
+    TACTR_ANY void go(int phase) {
+        if (phase == LANES_BEGIN)
+            begin();
+        else
+            run(phase == LANES_FAR);
+    }
+
+  private:
     /// One march from the straight robot without derivatives: its errors, and free ends moved by what it missed the base.
     TACTR_ANY void begin() {
         for (int i = 0; i < plan_.tubes; ++i) psi_[i] = numbers_[plan_.rotation + i];
-        LaneMarch<R, 0> march(plan_, numbers_, LaneMarchKind{FINE, true, true, true});
+        LaneMarch<R, 0> march(plan_, numbers_, LaneMarchKind{ROUGH, true, true, true});
         march.run(psi_, memory_, MaskOf<R>(true));
         R missed[LANE_TUBES];
         residual(march.psi, missed);
@@ -24,16 +33,18 @@ class LaneNewton {
         const MaskOf<R> wind = march.found & (size < LONGEST_CHORD);
         for (int l = 0; l < N; ++l) psi_[1 + l] = select(wind, psi_[1 + l] - missed[l], psi_[1 + l]);
         write_errors(march, MaskOf<R>(true));
+        out_[LaneResults::BASE_RESIDUAL] = size;
         out_[LaneResults::ALIVE] = select(march.found, R(1.0), R(0.0));
         for (int i = 0; i < plan_.tubes; ++i) out_[LaneResults::PSI + i] = psi_[i];
     }
 
     /// Newton from the free ends in the results, on the plan's steps.
-    TACTR_ANY void run() {
+    TACTR_ANY void run(bool far) {
         for (int i = 0; i < plan_.tubes; ++i) psi_[i] = out_[LaneResults::PSI + i];
         alive_ = MaskOf<R>(true);
         marches_ = R(0.0);
-        if constexpr (N > 0) approach();
+        if constexpr (N > 0)
+            if (far) approach();
         draft();
         check();
         out_[LaneResults::ALIVE] = select(alive_, R(1.0), R(0.0));
@@ -41,8 +52,7 @@ class LaneNewton {
         for (int i = 0; i < plan_.tubes; ++i) out_[LaneResults::PSI + i] = psi_[i];
     }
 
-  private:
-    static constexpr double ROUGH = 1e-2, FINE = 1e-4;  // residual of sections before their last linear step
+    static constexpr double ROUGH = 5e-2, FINE = 1e-4;  // residual of sections before their last linear step
     static constexpr double CLOSE = 1e-2;               // rad: from here Newton squares the residual
     static constexpr double LONGEST = 1.0;              // rad, of a step
     static constexpr double SHORTER = 0.4, SHORTEST = 0.02;
@@ -140,8 +150,13 @@ class LaneNewton {
                 take_jacobian(r, kept, missed);
                 for (int i = 0; i < N; ++i) step[i] = -missed[i];
                 solve_lanes(N, factors_, step);
-                const R longest = norm(step);
                 size = select(kept, norm(missed), size);
+                R ahead(0.0);
+                for (int i = 0; i < N; ++i) ahead -= step[i] * missed[i];
+                R longest = norm(step);  // then as NewtonSolver::is_astray
+                const MaskOf<R> astray = kept & (size > CLOSE) & ((ahead < 0.0) | (longest > Stride::LIKELY));
+                for (int i = 0; i < N; ++i) step[i] = select(astray, -missed[i] * (Stride::LENGTH / size), step[i]);
+                longest = select(astray, R(Stride::LENGTH), longest);
                 fraction = select(kept, select(longest > LONGEST, LONGEST / longest, R(1.0)), SHORTER * fraction);
                 for (int i = 0; i < N; ++i) {
                     by[i] = select(kept, step[i], by[i]);
@@ -150,9 +165,9 @@ class LaneNewton {
                     memory_.shift[i] = select(far, to - psi_[1 + i], memory_.shift[i]);
                     psi_[1 + i] = select(far, to, psi_[1 + i]);
                 }
-                bound = (1.0 - 0.1 * fraction) * size;
+                bound = select(astray, R(HUGE_VAL), (1.0 - 0.1 * fraction) * size);
                 alive_ = alive_ & ((!far) | (march.found & (fraction > SHORTEST) & is_finite(longest)));
-                far = far & alive_ & !(kept & (size < CLOSE) & (fraction >= 1.0));
+                far = far & alive_ & !(kept & (size < CLOSE) & !astray & (fraction >= 1.0));
             }
             alive_ = alive_ & !far;
         }

@@ -52,6 +52,9 @@ struct LanePlan {
     LaneSection sections[LANE_SECTIONS];             // from base to tip
 };
 
+/// What a pack goes through: the first march, Newton from there, Newton from a solution on other steps.
+enum LanePhase { LANES_BEGIN, LANES_FAR, LANES_NEAR };
+
 /// Where results stand, a row for each kind.
 struct LaneResults {
     enum Row {

@@ -9,23 +9,20 @@
 namespace tactr {
 
 template <class R, int N>
-void run_lanes(const LanePlan& plan, int begin, long stride, const double* numbers, double* memory, double* results) {
+void run_lanes(const LanePlan& plan, int phase, long stride, const double* numbers, double* memory, double* results) {
     const LaneRows<const R> in{reinterpret_cast<const R*>(numbers), stride};
     LaneNewton<R, N> newton(plan, in, LaneRows<R>{reinterpret_cast<R*>(memory), stride}, LaneRows<R>{reinterpret_cast<R*>(results), stride});
-    if (begin)
-        newton.begin();
-    else
-        newton.run();
+    newton.go(phase);
 }
 
 template <class R>
-int choose_lanes(const void* given, int begin, long stride, const double* numbers, double* memory, double* results) {
+int choose_lanes(const void* given, int phase, long stride, const double* numbers, double* memory, double* results) {
     const LanePlan& plan = *static_cast<const LanePlan*>(given);
     switch (plan.tubes) {
-        case 1: run_lanes<R, 0>(plan, begin, stride, numbers, memory, results); break;
-        case 2: run_lanes<R, 1>(plan, begin, stride, numbers, memory, results); break;
-        case 3: run_lanes<R, 2>(plan, begin, stride, numbers, memory, results); break;
-        default: run_lanes<R, 3>(plan, begin, stride, numbers, memory, results);
+        case 1: run_lanes<R, 0>(plan, phase, stride, numbers, memory, results); break;
+        case 2: run_lanes<R, 1>(plan, phase, stride, numbers, memory, results); break;
+        case 3: run_lanes<R, 2>(plan, phase, stride, numbers, memory, results); break;
+        default: run_lanes<R, 3>(plan, phase, stride, numbers, memory, results);
     }
     return 0;
 }
@@ -33,16 +30,16 @@ int choose_lanes(const void* given, int begin, long stride, const double* number
 }  // namespace tactr
 
 #ifdef TACTR_LANES_AVX2
-int tactr_lanes_avx2(const void* plan, int begin, long, long, const double* numbers, double* memory, double* results) {
-    return tactr::choose_lanes<tactr::Pack>(plan, begin, 1, numbers, memory, results);
+int tactr_lanes_avx2(const void* plan, int phase, long, long, const double* numbers, double* memory, double* results) {
+    return tactr::choose_lanes<tactr::Pack>(plan, phase, 1, numbers, memory, results);
 }
 #else
-int tactr_lanes_baseline(const void* plan, int begin, long, long, const double* numbers, double* memory, double* results) {
-    return tactr::choose_lanes<tactr::Pack>(plan, begin, 1, numbers, memory, results);
+int tactr_lanes_baseline(const void* plan, int phase, long, long, const double* numbers, double* memory, double* results) {
+    return tactr::choose_lanes<tactr::Pack>(plan, phase, 1, numbers, memory, results);
 }
 
-int tactr_lanes_single(const void* plan, int begin, long count, long, const double* numbers, double* memory, double* results) {
-    for (long t = 0; t < count; ++t) tactr::choose_lanes<double>(plan, begin, count, numbers + t, memory + t, results + t);
+int tactr_lanes_single(const void* plan, int phase, long count, long, const double* numbers, double* memory, double* results) {
+    for (long t = 0; t < count; ++t) tactr::choose_lanes<double>(plan, phase, count, numbers + t, memory + t, results + t);
     return 0;
 }
 #endif

@@ -11,15 +11,12 @@ namespace {
 constexpr int THREADS = 64;  // a block; each needs many registers
 
 template <int N>
-__global__ void solve_lanes_on_device(const LanePlan* plan, int begin, long count, const double* numbers, double* memory, double* results) {
+__global__ void solve_lanes_on_device(const LanePlan* plan, int phase, long count, const double* numbers, double* memory, double* results) {
     const long t = static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
     if (t >= count) return;
     const LaneRows<const double> in{numbers + t, count};
     LaneNewton<double, N> newton(*plan, in, LaneRows<double>{memory + t, count}, LaneRows<double>{results + t, count});
-    if (begin)
-        newton.begin();
-    else
-        newton.run();
+    newton.go(phase);
 }
 
 /// Memory on the device that grows as it is needed, one for each thread of the host.
@@ -44,7 +41,7 @@ class DeviceBuffer {
     size_t size_ = 0;
 };
 
-cudaError_t launch(const LanePlan& plan, int begin, long count, long memory_rows, const double* numbers, double* results) {
+cudaError_t launch(const LanePlan& plan, int phase, long count, long memory_rows, const double* numbers, double* results) {
     thread_local DeviceBuffer on_plan, on_numbers, on_memory, on_results;
     const size_t wide = sizeof(double) * static_cast<size_t>(count);
     const size_t numbers_size = wide * plan.numbers, results_size = wide * LaneResults::ROWS;
@@ -62,7 +59,7 @@ cudaError_t launch(const LanePlan& plan, int begin, long count, long memory_rows
     const auto run = plan.tubes == 1 ? solve_lanes_on_device<0> : plan.tubes == 2 ? solve_lanes_on_device<1>
                    : plan.tubes == 3 ? solve_lanes_on_device<2> : solve_lanes_on_device<3>;
     run<<<static_cast<unsigned>((count + THREADS - 1) / THREADS), THREADS, 0, cudaStreamPerThread>>>(
-        on_plan.as<LanePlan>(), begin, count, on_numbers.as<double>(), on_memory.as<double>(), on_results.as<double>());
+        on_plan.as<LanePlan>(), phase, count, on_numbers.as<double>(), on_memory.as<double>(), on_results.as<double>());
     error = cudaGetLastError();
     send(results, on_results.as<void>(), results_size, cudaMemcpyDeviceToHost);
     return error == cudaSuccess ? cudaStreamSynchronize(cudaStreamPerThread) : error;
@@ -74,8 +71,8 @@ cudaError_t launch(const LanePlan& plan, int begin, long count, long memory_rows
 
 extern "C" {
 
-int tactr_lanes_cuda(const void* plan, int begin, long count, long memory_rows, const double* numbers, double*, double* results) {
-    return static_cast<int>(tactr::launch(*static_cast<const tactr::LanePlan*>(plan), begin, count, memory_rows, numbers, results));
+int tactr_lanes_cuda(const void* plan, int phase, long count, long memory_rows, const double* numbers, double*, double* results) {
+    return static_cast<int>(tactr::launch(*static_cast<const tactr::LanePlan*>(plan), phase, count, memory_rows, numbers, results));
 }
 
 /// Empty: there is a device. Otherwise what is wrong.

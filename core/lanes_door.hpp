@@ -2,10 +2,10 @@
 // for another's.
 #pragma once
 
-/// plan: a tactr::LanePlan. begin: 1 for the first march, 0 for Newton. numbers, memory and results: rows of count doubles,
+/// plan: a tactr::LanePlan. phase: a tactr::LanePhase. numbers, memory and results: rows of count doubles,
 /// aligned to 32 bytes; of memory there are memory_rows, which a device has for itself. Returns 0, or a device's error.
 extern "C" {
-using TactrLanesDoor = int (*)(const void* plan, int begin, long count, long memory_rows, const double* numbers, double* memory,
+using TactrLanesDoor = int (*)(const void* plan, int phase, long count, long memory_rows, const double* numbers, double* memory,
                                double* results);
 int tactr_lanes_baseline(const void*, int, long, long, const double*, double*, double*);  // count: 4
 int tactr_lanes_avx2(const void*, int, long, long, const double*, double*, double*);      // count: 4

@@ -9,6 +9,7 @@
 #include "free_end.hpp"
 #include "march.hpp"
 #include "solution.hpp"
+#include "stride.hpp"
 
 namespace tactr {
 
@@ -20,6 +21,7 @@ class NewtonSolver {
     const Settings settings;
     const Layout<double> layout;
     const Shooting shooting;
+    int strides = 0;                // left, where Newton leads away from stable equilibria
     double residual[MAX_UNKNOWNS];  // at the last evaluation; its derivatives are in the solution
 
     /// clamp: where the base is, and the tubes' rotations hold; what lies before it is left away.
@@ -159,6 +161,12 @@ class NewtonSolver {
                 for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
             }
             if (solve_dense(shooting.unknowns, A, step) == 0.0) break;
+            if (strides > 0 && is_astray(step, size)) {
+                --strides;
+                shooting.move(FreeEnd<double>(solution.free_end), residual, -Stride::LENGTH / size, solution.free_end);
+                if (!evaluate(solution, Kind::rough)) return fail(solution, Status::no_equilibrium);
+                continue;
+            }
             if (backtrack(solution, step, size)) continue;
             if (careful_) break;
             careful_ = true;  // rough marches, each from other strains, may miss what is less than their own error
@@ -256,6 +264,13 @@ class NewtonSolver {
     static constexpr double ERROR_SAFETY = 2.0;  // the embedded estimate, carried to the tip, underrates the coarsest meshes
 
     std::vector<double> section_error_, edge_error_, length_error_;
+
+    bool is_astray(const double* step, double size) const {
+        constexpr double CLOSE = 1e-2;  // rad
+        double ahead = 0.0;
+        for (int i = 0; i < shooting.unknowns; ++i) ahead -= step[i] * residual[i];
+        return size > CLOSE && (ahead < 0.0 || norm(step) > Stride::LIKELY);
+    }
 
     bool backtrack(Solution& solution, double* step, double size) {
         constexpr double LONGEST = 1.0;  // rad: beyond, the linear model says nothing

@@ -21,8 +21,11 @@ bool converge_straight(NewtonSolver& newton, Solution& solution) {
         newton.stand_up(solution);
     } else {
         newton.choose_mesh_and_wind(solution);
+        newton.strides = Stride::MOST;
     }
-    return newton.polish(solution);
+    const bool found = newton.polish(solution);
+    newton.strides = 0;
+    return found;
 }
 
 bool converge_growing(NewtonSolver& newton, Solution& solution) {

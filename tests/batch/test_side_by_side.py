@@ -57,9 +57,10 @@ def same(a: dict[str, Any], b: dict[str, Any]) -> None:
 
 
 def test_most_go_side_by_side_and_agree_with_one_by_one() -> None:
-    rows = three_tube_rows(60)
+    """Also where Newton's first steps lead uphill, to the other side of a snap: one in seven of these."""
+    rows = three_tube_rows(150)
     packed, alone = kernel(*rows, "baseline"), kernel(*rows, "none")
-    assert packed["side_by_side"].mean() > 0.8 and not alone["side_by_side"].any()
+    assert packed["side_by_side"].mean() > 0.95 and not alone["side_by_side"].any()
     assert (packed["status"] == 0).all() and (packed["discretisation_error"] <= TOLERANCE).all()
     np.testing.assert_allclose(packed["tip_position"], alone["tip_position"], atol=TOLERANCE)
     np.testing.assert_allclose(packed["tendon_length"], alone["tendon_length"], atol=TOLERANCE)

@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 import time
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -55,7 +56,7 @@ def test_workers_killed_at_random(scheduler, tmp_path):
     begun = threading.Event()
 
     def kill() -> None:
-        with Client(scheduler) as client:
+        with Client(scheduler, set_as_default=False) as client:
             begun.wait(60)
             while not over.is_set() and len(killed) < 4:
                 pids = list(cast(dict, client.run(os.getpid)).values())
@@ -90,6 +91,22 @@ def test_an_address_where_nothing_answers(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 0.5)
     with pytest.raises(TactrError, match="no scheduler of dask answers at tcp://127.0.0.1:1"):
         sweep(STUDY, tmp_path / "x.zarr", cluster="tcp://127.0.0.1:1")
+
+
+def test_dask_of_the_caller_is_left_alone(scheduler, tmp_path):
+    from dask import config
+    from distributed import default_client
+
+    def progress(done: int, count: int) -> None:
+        seen.append(config.get("scheduler", None))
+        with pytest.raises(ValueError, match="No clients found"):
+            default_client()
+
+    seen: list[object] = []
+    chosen = replace(STUDY, chunk=1500)
+    sweep(chosen, tmp_path / "x.zarr", cluster=scheduler.scheduler_address, progress=progress)
+    assert seen
+    assert {*seen, config.get("scheduler", None)} == {None}
 
 
 def test_workers_of_another_version_are_refused():

@@ -58,7 +58,7 @@ def _gathered(
     waiting.reverse()
     tries: dict[int, int] = {}
     running: dict[Any, int] = {}
-    arrived = distributed.as_completed()
+    arrived = distributed.as_completed(loop=client.loop)
 
     def ask(chunk: int) -> None:
         future = client.submit(work, study, chunk, versions(), pure=False, retries=0)
@@ -84,6 +84,7 @@ def _gathered(
         yield chunk, arrays
 
 
+# A default client would send the caller's own dask work, also what xarray saves, to this cluster.
 @contextmanager
 def _client(distributed: Any, cluster: str | None, workers: int | None) -> Iterator[Any]:
     if cluster is None:
@@ -94,12 +95,12 @@ def _client(distributed: Any, cluster: str | None, workers: int | None) -> Itera
             distributed.LocalCluster(
                 n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1"
             ) as own,
-            distributed.Client(own) as client,
+            distributed.Client(own, set_as_default=False) as client,
         ):
             yield client
         return
     try:
-        client = distributed.Client(cluster, timeout=PATIENCE)
+        client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:
         raise ClusterError(f"no scheduler of dask answers at {cluster}: {error}") from None
     with client:
