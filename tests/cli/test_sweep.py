@@ -86,6 +86,8 @@ def test_an_interrupt_leaves_what_was_done(start, study):
     child = subprocess.Popen(
         [sys.executable, "-m", "tactr.cli", "sweep", "long.yaml", "--threads", "1"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ,
+        # where the tests run in the background of a shell, they hand on that interrupts are ignored
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
     done = study / "long.zarr" / "status" / "c" / "1"
     for _ in range(3000):
