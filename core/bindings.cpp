@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bind_batch.hpp"
+#include "bind_friction.hpp"
 #include "energetics.hpp"
 #include "joint.hpp"
 #include "point_contact.hpp"
@@ -121,30 +122,6 @@ void read_tendons(PreparedRobot& robot, const Table& tendons, const Table& profi
     if (static_cast<size_t>(routing) != robot.routing.size()) throw std::invalid_argument("routing does not match tendons");
     if (static_cast<size_t>(profile) != profiles.shape(0)) throw std::invalid_argument("profiles do not match tendons");
     read_profiles(robot, profiles);
-}
-
-/// The same robot, its tendons with other tension profiles, counts[j] pieces for tendon j.
-PreparedRobot with_profiles(const PreparedRobot& robot, const std::vector<int>& counts, const Table& profiles) {
-    if (counts.size() != robot.tendons.size()) throw std::invalid_argument("one number of tension pieces for each tendon");
-    PreparedRobot other = robot;
-    other.profiles.clear();
-    int first = 0;
-    for (size_t j = 0; j < counts.size(); ++j) {
-        other.tendons[j].profile_begin = first;
-        other.tendons[j].profile_end = first += counts[j];
-    }
-    if (static_cast<size_t>(first) != profiles.shape(0)) throw std::invalid_argument("profiles do not match tendons");
-    read_profiles(other, profiles);
-    return other;
-}
-
-/// Ends of the sections, from base to tip, m from the guide's exit.
-nb::object section_ends(const PreparedRobot& robot, const Vector& translation) {
-    const std::vector<double> places = copied(translation, robot.tubes.size(), "translation");
-    const auto layout = tactr::cut_into_sections(robot.view(), places.data());
-    std::vector<double> ends{layout.sections.front().proximal};
-    for (const auto& section : layout.sections) ends.push_back(section.distal);
-    return vector_of(ends.data(), ends.size());
 }
 
 void read_loads(PreparedRobot& robot, const Table& points, const Table& distributed) {
@@ -434,9 +411,7 @@ NB_MODULE(_core, m) {
                  read_loads(*robot, point_loads, distributed_loads);
                  new (self) PreparedRobot(std::move(*robot));
              },
-             "tubes"_a, "pieces"_a, "tendons"_a, "routing"_a, "profiles"_a, "point_loads"_a, "distributed_loads"_a)
-        .def("with_profiles", &with_profiles, "counts"_a, "profiles"_a, "The same robot with other tension profiles.")
-        .def("section_ends", &section_ends, "translation"_a, "Ends of the sections from base to tip, m from the guide's exit.");
+             "tubes"_a, "pieces"_a, "tendons"_a, "routing"_a, "profiles"_a, "point_loads"_a, "distributed_loads"_a);
 
     nb::class_<tactr::Solution>(m, "Solution", "What a solve found.")
         .def_prop_ro("status", [](const tactr::Solution& s) { return static_cast<int>(s.status); })
@@ -483,5 +458,6 @@ NB_MODULE(_core, m) {
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
     m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");
+    tactr::bind_friction(m);
     tactr::bind_batch(m);
 }

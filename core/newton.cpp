@@ -68,27 +68,16 @@ bool NewtonSolver::evaluate_lanes(Solution& solution, Kind kind) {
     return true;
 }
 
-bool NewtonSolver::check(Solution& solution) {
-    March<double, double> march(robot, layout, actuation, shooting.full_options());
-    shooting.scale(march);
-    march.solver.precision = Precision::checked;
-    tell_shift(solution);
-    if (!march.run(solution.free_end, solution.mesh)) return false;
-    shooting.residual(march.base, actuation.rotation, residual);
-    solution.base_residual = norm(residual);
-    if (!std::isfinite(solution.base_residual)) return false;
-    note(solution, march);
-    shooting.tip_pose(solution.free_end, march.base, actuation.rotation[0], solution.tip_position, solution.tip_quaternion);
-    solution.tendon_length = march.tendon_length;
-    return true;
-}
-
 bool NewtonSolver::evaluate(Solution& solution, Kind kind) {
     solution.steps_marched += solution.mesh.total();
     ++solution.iterations;
     kind_ = kind;
     if (has_path(kind)) estimate_ = kind;
-    if (kind == Kind::check) return check(solution);
+    if (kind == Kind::check) {
+        NoObserver nobody;
+        BaseState<double> base;
+        return watch(solution, nobody, base);
+    }
     const int lanes = shooting.unknowns + (has_path(kind) ? 1 : 0);
     return with_lanes(lanes, [&](auto count) { return evaluate_lanes<decltype(count)::value>(solution, kind); });
 }

@@ -47,6 +47,13 @@ class NewtonSolver {
 
     /// Takes over a neighbour's free end, mesh and derivatives. False: it is no neighbour.
     bool start_from(const Solution& guess, Solution& solution) {
+        if (!take_over(guess, solution)) return false;
+        if (shooting.unknowns > 0) approach(guess, solution);
+        return true;
+    }
+
+    /// The same, and stays there.
+    bool take_over(const Solution& guess, Solution& solution) {
         const bool fits = guess.status == Status::converged && guess.mesh.unknowns == shooting.unknowns &&
                           static_cast<int>(guess.rotation.size()) == robot.tube_count &&
                           guess.mesh.steps.size() == layout.sections.size();
@@ -55,7 +62,33 @@ class NewtonSolver {
         solution.mesh = guess.mesh;
         solution.mesh.marched = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
-        if (shooting.unknowns > 0) approach(guess, solution);
+        return true;
+    }
+
+    /// By the derivatives that the solution has to where they meet the base. False: a section had no equilibrium.
+    bool step_by_derivatives(Solution& solution) {
+        if (!evaluate(solution, Kind::check)) return false;
+        double missed[MAX_UNKNOWNS];
+        std::copy(residual, residual + shooting.unknowns, missed);
+        step_with_neighbour(missed, solution);
+        return true;
+    }
+
+    /// A check, its steps seen by an observer. False: a section had no equilibrium.
+    template <class Observer>
+    bool watch(Solution& solution, Observer& observer, BaseState<double>& base) {
+        March<double, double> march(robot, layout, actuation, shooting.full_options());
+        shooting.scale(march);
+        march.solver.precision = Precision::checked;
+        tell_shift(solution);
+        if (!march.run(solution.free_end, solution.mesh, observer)) return false;
+        base = march.base;
+        shooting.residual(base, actuation.rotation, residual);
+        solution.base_residual = norm(residual);
+        if (!std::isfinite(solution.base_residual)) return false;
+        note(solution, march);
+        shooting.tip_pose(solution.free_end, base, actuation.rotation[0], solution.tip_position, solution.tip_quaternion);
+        solution.tendon_length = march.tendon_length;
         return true;
     }
 
@@ -97,6 +130,8 @@ class NewtonSolver {
         cut_mesh(solution);
         if (plain_march(solution, unloaded, base)) shooting.upright(base, actuation.rotation[0], solution.free_end);
     }
+
+    static constexpr double CLOSE = 1e-2;  // rad: so far derivatives and error estimates serve as they are
 
     /// How a march is made. rough: derivatives, sections solved roughly. firm: derivatives, every section to its
     /// tolerance. draft: as rough, with path and error estimate too. exact: as firm, with path and error estimate.
@@ -214,8 +249,6 @@ class NewtonSolver {
 
     template <int K>
     bool evaluate_lanes(Solution& solution, Kind kind);
-
-    bool check(Solution& solution);
 
     template <class M>
     static void note(Solution& solution, const M& march) {

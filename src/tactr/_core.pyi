@@ -19,11 +19,6 @@ class PreparedRobot:
         point_loads: np.ndarray,
         distributed_loads: np.ndarray,
     ) -> None: ...
-    def with_profiles(self, counts: list[int], profiles: np.ndarray) -> PreparedRobot:
-        """The same robot with other tension profiles, counts[j] pieces for tendon j."""
-
-    def section_ends(self, translation: np.ndarray) -> np.ndarray:
-        """Ends of the sections from base to tip, m from the guide's exit."""
 
 class Solution:
     """What a solve found."""
@@ -124,6 +119,85 @@ def friction_step(
 ) -> dict[str, Any]:
     """One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the
     nodes."""
+
+class FrictionChannels:
+    """Where tendons rub."""
+
+    def __init__(self, rows: list[tuple[int, int, float, list, list | None, list]]) -> None:
+        """rows: tendon, tube, end, pieces of friction, contacts or None, cuts; in order of the tendons."""
+
+class FrictionSettled:
+    """One equilibrium with friction of tendons; profiles: None, or edges, Chebyshev coefficients, slides and
+    driven of log tension, by channel."""
+
+    robot: PreparedRobot
+    solution: Solution
+    profiles: list[tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[bool, ...]] | None]
+    missed: float
+    rounds: int
+
+class FrictionRounds:
+    """Rounds of profiles, shape and wraps."""
+
+    missed: float
+    rounds: int
+
+    def __init__(
+        self,
+        plain: PreparedRobot,
+        channels: FrictionChannels,
+        old: list[tuple[np.ndarray, np.ndarray] | None],
+        translation: np.ndarray,
+    ) -> None:
+        """old: edges and Chebyshev coefficients of log tension before, None without tension; by channel."""
+
+    def start_plain(self, solution: Solution) -> None:
+        """From the wraps in a shape without friction."""
+
+    def start_near(self, near: FrictionSettled, before: FrictionSettled | None, ahead: float) -> None:
+        """From those of an equilibrium near by, carried on by so much of the way from one before that."""
+
+    def profile(self, tension: np.ndarray) -> PreparedRobot:
+        """The robot with profiles at these tensions at the base."""
+
+    def measure(self, robot: PreparedRobot, solution: Solution) -> bool:
+        """Reads the wraps in the round's shape; whether it could."""
+
+    def mix(self, tension: np.ndarray, next: np.ndarray) -> np.ndarray:
+        """Wraps and tensions to go on with."""
+
+    def rates(self, still: PreparedRobot, channel: int, tension: float, all: bool) -> PreparedRobot:
+        """Rates as a channel's tension at the base grows by 1 N: of what follows the base, or of all."""
+
+    def slack(self, channel: int) -> bool:
+        """Whether a channel's tendon is."""
+
+    def settled(self, robot: PreparedRobot, solution: Solution) -> FrictionSettled:
+        """The round as an equilibrium."""
+
+    def run(
+        self,
+        tension: np.ndarray,
+        rotation: np.ndarray,
+        translation: np.ndarray,
+        tolerance: float,
+        residual_tolerance: float,
+        guess: Solution,
+        stay: bool,
+        near: FrictionSettled | None = None,
+        most_missed: float = 0.0,
+    ) -> FrictionSettled | None:
+        """All rounds at given tensions; None: not found, or more missed of the history since near."""
+
+def friction_heat(
+    channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled
+) -> tuple[np.ndarray, np.ndarray]:
+    """By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m."""
+
+def friction_history_missed(
+    channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled
+) -> float:
+    """What one step misses of log tension that small ones would have seen."""
 
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""

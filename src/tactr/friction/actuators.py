@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -40,6 +41,8 @@ class Actuators:
 
     def through(self, plays: Plays, before: Actuators) -> Actuators:
         """What the plays pass on; before: what they did."""
+        if not plays.any:
+            return self
         return Actuators(
             self.tension,
             passed_on(before.rotation, self.rotation, plays.rotation),
@@ -71,6 +74,11 @@ class Plays:
     displacement: np.ndarray
     rotation: np.ndarray
     translation: np.ndarray
+
+    @cached_property
+    def any(self) -> bool:
+        """Whether there is any backlash."""
+        return any(widths.any() for widths in (self.displacement, self.rotation, self.translation))
 
     @staticmethod
     def of(robot: Robot) -> Plays:

@@ -12,10 +12,8 @@ from tactr.errors import RobotError
 from tactr.friction.actuators import Actuators, Plays
 from tactr.friction.driven import Driven
 from tactr.friction.equilibrium import Equilibrium, Settled
-from tactr.friction.missed import history_missed
 from tactr.friction.plain import plain_shape
-from tactr.friction.project import Profile
-from tactr.friction.slip import heat
+from tactr.friction.profile import Profile
 from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
 from tactr.robot.friction import rubs
@@ -79,7 +77,7 @@ class _Driver:
         self._plays = Plays.of(self._robot)
         self._equilibrium = Equilibrium(prepared)
         self._near: Settled | None = None
-        self._at: Actuators | None = None  # passed on by the plays, at the last shape
+        self._before: Settled | None = None  # what was found before that
 
     def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
         shapes, states, failed, steps = [], [], [], []
@@ -152,44 +150,47 @@ class _Driver:
                 return state, 0
             return self._taken(settled, point, state), 1
         done, step, count = 0.0, 1.0, 0
+        index = [c.index for c in self._equilibrium.channels]
         while done < 1.0:
             to = min(1.0, done + step)
             ahead = before.towards(point, to)
-            near, at = self._near, self._at
-            assert at is not None
-            settled = self._settle(ahead, state, cold=False)
+            near, snaps = self._near, False
+            assert near is not None
+            settled = self._settle(ahead, state, cold=False, halves=step > SHORTEST_STEP)
             if settled is not None and step > SHORTEST_STEP and not self._is_fine(near, settled):
                 settled = None
             if settled is None:
                 if step > SHORTEST_STEP:
                     step *= 0.5
                     continue
-                settled = self._settle(ahead, state, cold=True)  # the branch is lost: it snaps
+                settled, snaps = self._settle(ahead, state, cold=True), True  # the branch is lost
                 if settled is None:
                     self._near = None
                     return state, 0
-            after = ahead.through(self._plays, state.passed)
-            index = [c.index for c in self._equilibrium.channels]
-            lost, crept = heat(
-                self._equilibrium.channels, (near, at.translation), (settled, after.translation)
-            )
-            heats[index] += lost
-            creeps[index] = np.maximum(creeps[index], crept)
+            if index:
+                lost, crept = _core.friction_heat(self._equilibrium.rows, near.found, settled.found)
+                heats[index] += lost
+                creeps[index] = np.maximum(creeps[index], crept)
             if settled.tubes is not None:
                 tube_heats += settled.tubes.heat_from(state.rubbing, state.tubes)
             state = self._taken(settled, ahead, state)
+            if snaps:
+                self._before = None
             done, count, step = to, count + 1, min(2.0 * step, 1.0)
         return state, count
 
     def _taken(self, settled: Settled, given: Actuators, state: DriveState) -> DriveState:
         passed = given.through(self._plays, state.passed)
-        self._near, self._at = settled, passed
+        self._before, self._near = self._near, settled
         profiles: list[Profile | None] = [None] * len(self._robot.tendons)
         for c, profile in zip(self._equilibrium.channels, settled.profiles, strict=True):
             profiles[c.index] = profile
         return DriveState(state.tendons, state.tubes, tuple(profiles), given, passed, settled.tubes)
 
-    def _settle(self, given: Actuators, state: DriveState, *, cold: bool) -> Settled | None:
+    def _settle(
+        self, given: Actuators, state: DriveState, *, cold: bool, halves: bool = False
+    ) -> Settled | None:
+        """halves: a step that misses too much of its history need not be found, a shorter one follows."""
         passed = given.through(self._plays, state.passed)
         arrays = passed.tension, passed.rotation, passed.translation
         old = [None if (p := state.profiles[c.index]) is None else p.log for c in self._equilibrium.channels]
@@ -211,23 +212,23 @@ class _Driver:
         near = self._near
         assert near is not None
         return self._equilibrium.settle(
-            old, arrays, pulls, near, near.solution, stay=True, tubes=state.rubbing
+            old,
+            arrays,
+            pulls,
+            near,
+            near.solution,
+            before=self._before,
+            stay=True,
+            most_missed=MOST_MISSED if halves else None,
+            tubes=state.rubbing,
         )
 
     def _is_fine(self, a: Settled, b: Settled) -> bool:
         """Whether the way from a to b is short enough for one step, and b as stable as a."""
         if self._turn(a, b) > LONGEST_TURN or (not self._stable(b) and self._stable(a)):
             return False
-        missed = [
-            history_missed(
-                a.wraps[k],
-                b.wraps[k],
-                (float(a.solution.tension[c.index]), float(b.solution.tension[c.index])),
-                (a.profiles[k], b.profiles[k]),
-            )
-            for k, c in enumerate(self._equilibrium.channels)
-        ]
-        return max(missed, default=0.0) <= MOST_MISSED
+        missed = _core.friction_history_missed(self._equilibrium.rows, a.found, b.found)
+        return missed <= MOST_MISSED
 
     @staticmethod
     def _stable(settled: Settled) -> bool:

@@ -10,8 +10,7 @@ import numpy as np
 
 from tactr.errors import RobotError
 from tactr.friction.actuators import Actuators
-from tactr.friction.chebyshev import ORDER, Curve
-from tactr.friction.project import Profile
+from tactr.friction.profile import ORDER, Curve, Profile
 from tactr.friction.tube_state import TubeFrictionState
 from tactr.robot import Robot
 

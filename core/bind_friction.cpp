@@ -1,0 +1,183 @@
+// Python's door to friction of tendons.
+#include "bind_friction.hpp"
+
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tendon_friction.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace {
+
+using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using PreparedRobot = tactr::RobotTables<double>;
+
+struct Channels {
+    std::vector<tactr::FrictionChannel> list;
+};
+
+std::vector<double> doubles_of(const Vector& v) { return {v.data(), v.data() + v.shape(0)}; }
+
+std::vector<double> doubles_of(const Vector& v, size_t expected, const char* name) {
+    if (v.shape(0) != expected) throw std::invalid_argument(std::string(name) + " has the wrong length");
+    return doubles_of(v);
+}
+
+nb::object array_of(std::vector<double>&& data, std::initializer_list<size_t> shape) {
+    auto* owned = new std::vector<double>(std::move(data));
+    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, double>(owned->data(), shape, owner));
+}
+
+/// rows: (tendon, tube, end, pieces of friction, contacts or None, cuts), in the order of the tendons.
+Channels channels_of(const nb::list& rows) {
+    Channels out;
+    for (nb::handle item : rows) {
+        const nb::tuple row = nb::cast<nb::tuple>(item);
+        tactr::FrictionChannel channel{nb::cast<int>(row[0]), nb::cast<int>(row[1]), nb::cast<double>(row[2]),
+                                       nb::cast<std::vector<std::pair<double, double>>>(row[3]), !row[4].is_none(), {},
+                                       nb::cast<std::vector<double>>(row[5])};
+        if (channel.over_disks) channel.contacts = nb::cast<std::vector<double>>(row[4]);
+        if (channel.pieces.empty()) throw std::invalid_argument("a channel without friction");
+        if (!out.list.empty() && channel.tendon <= out.list.back().tendon) throw std::invalid_argument("channels out of order");
+        out.list.push_back(std::move(channel));
+    }
+    return out;
+}
+
+/// None: no tension, or (edges, Chebyshev coefficients) of log tension.
+std::vector<std::optional<tactr::Curve>> curves_of(const nb::list& old) {
+    std::vector<std::optional<tactr::Curve>> out(nb::len(old));
+    for (size_t c = 0; c < out.size(); ++c) {
+        if (old[c].is_none()) continue;
+        const nb::tuple pair = nb::cast<nb::tuple>(old[c]);
+        const auto coefficients = nb::cast<Table>(pair[1]);
+        tactr::Curve curve{doubles_of(nb::cast<Vector>(pair[0])), {}};
+        if (coefficients.shape(0) < 1 || curve.edges.size() != coefficients.shape(0) + 1 || coefficients.shape(1) != tactr::CURVE_POINTS)
+            throw std::invalid_argument("a profile has the wrong shape");
+        curve.coefficients.resize(coefficients.shape(0));
+        for (size_t k = 0; k < coefficients.shape(0); ++k)
+            std::copy(&coefficients(k, 0), &coefficients(k, 0) + tactr::CURVE_POINTS, curve.coefficients[k].begin());
+        out[c] = std::move(curve);
+    }
+    return out;
+}
+
+/// By channel: None, or (edges, coefficients, slides, driven).
+nb::list profiles_of(const tactr::FrictionSettled& settled) {
+    nb::list out;
+    for (const auto& profile : settled.profiles) {
+        if (!profile) {
+            out.append(nb::none());
+            continue;
+        }
+        std::vector<double> coefficients;
+        for (const auto& row : profile->log.coefficients) coefficients.insert(coefficients.end(), row.begin(), row.end());
+        const size_t pieces = profile->slides.size();
+        nb::list slides, driven;
+        for (size_t k = 0; k < pieces; ++k) {
+            slides.append(profile->slides[k]);
+            driven.append(static_cast<bool>(profile->driven[k]));
+        }
+        out.append(nb::make_tuple(array_of(std::vector<double>(profile->log.edges), {pieces + 1}),
+                                  array_of(std::move(coefficients), {pieces, tactr::CURVE_POINTS}), nb::tuple(slides), nb::tuple(driven)));
+    }
+    return out;
+}
+
+nb::object run(tactr::FrictionRounds& rounds, const Vector& tension, const Vector& rotation, const Vector& translation,
+               double tolerance, double residual_tolerance, const tactr::Solution& guess, bool stay, const tactr::FrictionSettled* near,
+               double most_missed) {
+    tactr::Solution blank;
+    blank.tension = doubles_of(tension, rounds.robot.tendons.size(), "tension");
+    blank.rotation = doubles_of(rotation, rounds.robot.tubes.size(), "rotation");
+    blank.translation = doubles_of(translation, rounds.robot.tubes.size(), "translation");
+    const tactr::Actuation<double> actuation{blank.tension.data(), blank.rotation.data(), blank.translation.data(), 1.0, 1.0};
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    settings.stay = stay;
+    auto found = std::make_unique<tactr::FrictionSettled>();
+    bool settled = false;
+    {
+        nb::gil_scoped_release release;
+        settled = rounds.run(actuation, settings, blank, guess, {near, most_missed}, *found);
+    }
+    return settled ? nb::cast(std::move(found)) : nb::none();
+}
+
+}  // namespace
+
+namespace tactr {
+
+void bind_friction(nb::module_& m) {
+    nb::class_<Channels>(m, "FrictionChannels", "Where tendons rub.")
+        .def("__init__", [](Channels* self, const nb::list& rows) { new (self) Channels(channels_of(rows)); }, "rows"_a);
+
+    nb::class_<FrictionSettled>(m, "FrictionSettled", "One equilibrium with friction of tendons.")
+        .def_prop_ro("robot", [](FrictionSettled& s) -> PreparedRobot& { return s.robot; }, nb::rv_policy::reference_internal)
+        .def_prop_ro("solution", [](FrictionSettled& s) -> Solution& { return s.solution; }, nb::rv_policy::reference_internal)
+        .def_prop_ro("profiles", &profiles_of)
+        .def_ro("missed", &FrictionSettled::missed)
+        .def_ro("rounds", &FrictionSettled::rounds);
+
+    nb::class_<FrictionRounds>(m, "FrictionRounds", "Rounds of profiles, shape and wraps.")
+        .def("__init__",
+             [](FrictionRounds* self, const PreparedRobot& plain, const Channels& channels, const nb::list& old, const Vector& translation) {
+                 if (nb::len(old) != channels.list.size()) throw std::invalid_argument("one old profile for each channel");
+                 for (const FrictionChannel& channel : channels.list)
+                     if (channel.tendon >= static_cast<int>(plain.tendons.size()) || channel.tube >= static_cast<int>(plain.tubes.size()))
+                         throw std::invalid_argument("a channel of another robot");
+                 new (self) FrictionRounds(plain, channels.list, curves_of(old), doubles_of(translation, plain.tubes.size(), "translation"));
+             },
+             "plain"_a, "channels"_a, "old"_a, "translation"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+        .def("start_plain", [](FrictionRounds& r, const Solution& s) { if (!r.start(s)) throw std::runtime_error("the solution cannot be sampled"); },
+             "solution"_a)
+        .def("start_near", [](FrictionRounds& r, const FrictionSettled& near, const FrictionSettled* before, double ahead) { r.start(near, before, ahead); },
+             "near"_a, "before"_a.none(), "ahead"_a)
+        .def("profile", [](FrictionRounds& r, const Vector& tension) {
+                 r.profile(doubles_of(tension, r.robot.tendons.size(), "tension"));
+                 return r.robot;
+             }, "tension"_a, "The robot with profiles at these tensions at the base.")
+        .def("measure", &FrictionRounds::measure, "robot"_a, "solution"_a, "Reads the wraps in the round's shape; whether it could.")
+        .def("mix", [](FrictionRounds& r, const Vector& tension, const Vector& next) {
+                 std::vector<double> mixed = doubles_of(tension);
+                 r.mix(mixed, doubles_of(next, mixed.size(), "next"));
+                 const size_t count = mixed.size();
+                 return array_of(std::move(mixed), {count});
+             }, "tension"_a, "next"_a, "Wraps and tensions to go on with.")
+        .def("rates", &FrictionRounds::rates, "still"_a, "channel"_a, "tension"_a, "all"_a)
+        .def("slack", [](const FrictionRounds& r, size_t channel) { return !r.profiles.at(channel).has_value(); }, "channel"_a)
+        .def("settled", [](const FrictionRounds& r, const PreparedRobot& robot, const Solution& solution) {
+                 auto out = std::make_unique<FrictionSettled>();
+                 r.settle(robot, solution, *out);
+                 return out;
+             }, "robot"_a, "solution"_a)
+        .def("run", &run, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a, "guess"_a, "stay"_a,
+             "near"_a = nb::none(), "most_missed"_a = 0.0, "All rounds at given tensions; None: not found, or more missed of the history.")
+        .def_ro("missed", &FrictionRounds::missed)
+        .def_ro("rounds", &FrictionRounds::rounds);
+
+    m.def("friction_heat", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
+        std::vector<double> heat, creep;
+        friction_heat(channels.list, before, after, heat, creep);
+        const size_t count = heat.size();
+        return nb::make_tuple(array_of(std::move(heat), {count}), array_of(std::move(creep), {count}));
+    }, "channels"_a, "before"_a, "after"_a, "By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m.");
+    m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
+        return friction_history_missed(channels.list, before, after.wraps, after.solution.tension);
+    }, "channels"_a, "before"_a, "after"_a, "What one step misses of log tension that small ones would have seen.");
+}
+
+}  // namespace tactr

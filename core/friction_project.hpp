@@ -1,0 +1,231 @@
+// The quasi-static step of Coulomb friction along one tendon. With y = log(tension) and the friction angle Phi the cone
+// |T'| <= mu T |dt/ds| is |y'| <= Phi'. From the base on, where y is given, y keeps the old profile where the cone allows
+// it, and otherwise slides along the cone towards it. For an old profile inside the new cone that is its projection on
+// [y0 - Phi, y0 + Phi], a play operator in y0; where the tendon has become straighter than the old profile needs, it
+// slides as well.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "friction_wrap.hpp"
+
+namespace tactr {
+
+/// log tension along one tendon; slides: -1, 0 or 1 for every piece, towards the base, stuck, towards the end; driven:
+/// whether the piece follows the tension at the base.
+struct FrictionProfile {
+    Curve log;
+    std::vector<int> slides;
+    std::vector<char> driven;
+};
+
+constexpr double NO_TENSION = -1e4;  // as a log tension: nothing comes down to it
+
+/// From the base to the end, cell by cell between edges of the old profile and of the wrap.
+class FrictionWalk {
+  public:
+    FrictionWalk(const Curve& old, const Wrap& wrap, double y0) : old_(old), wrap_(wrap), y_(y0) {}
+
+    /// joints: where a sliding profile is cut.
+    FrictionProfile profile(const std::vector<double>& joints) {
+        std::vector<double> all = old_.edges;
+        all.insert(all.end(), wrap_.rise.edges.begin(), wrap_.rise.edges.end());
+        const std::vector<double> cells = merged(all);
+        for (size_t k = 0; k + 1 < cells.size(); ++k) cross(cells[k], cells[k + 1]);
+        return pieces(joints);
+    }
+
+  private:
+    static constexpr double NOISE = 1e-9;  // of log tension: what the cone may be missed by before the tendon is taken to slide
+    static constexpr int LOOKS = 33;       // places at which a cell is looked at
+
+    struct Run {
+        double start;
+        int slide;
+        double y;  // at the start
+        bool driven;
+    };
+
+    const Curve& old_;
+    const Wrap& wrap_;
+    std::vector<Run> runs_;
+    double y_;
+    bool driven_ = true;
+    int old_piece_ = 0, rise_piece_ = 0;  // of the cell
+
+    double kept(double s) const { return old_.on(old_piece_, s); }
+    double rise(double s) const { return wrap_.rise.on(rise_piece_, s); }
+    static double look(double a, double b, int i) { return i + 1 == LOOKS ? b : a + (b - a) * i / (LOOKS - 1); }
+
+    void begin(double place, int slide) {
+        if (runs_.empty() || runs_.back().slide != slide) runs_.push_back({place, slide, y_, driven_});
+    }
+
+    void cross(double a, double b) {
+        old_piece_ = old_.piece(0.5 * (a + b));
+        rise_piece_ = wrap_.rise.piece(0.5 * (a + b));
+        jump(a);
+        double place = a;
+        for (int turns = 0; turns < 8 && place < b; ++turns) {
+            const double difference = y_ - kept(place);
+            place = std::fabs(difference) <= NOISE ? stay(place, b) : slide(place, b, difference > 0.0 ? -1 : 1);
+        }
+        if (place >= b) return;
+        driven_ = false;  // so many turns within one cell are noise
+        y_ = kept(place);
+        begin(place, 0);
+        y_ = kept(b);
+    }
+
+    void jump(double a) {
+        const double jump = wrap_.jump_at(a), before = y_, target = kept(a);
+        if (!(jump > 0.0)) return;
+        y_ = std::min(std::max(target, before - jump), before + jump);
+        if (std::fabs(y_ - target) <= 1e-13) driven_ = false;
+        runs_.push_back({a, driven_ ? (y_ > before) - (y_ < before) : 0, y_, driven_});
+    }
+
+    double slide(double a, double b, int way) {
+        begin(a, way);
+        const double y = y_, start = rise(a);
+        const auto beyond = [&](double s) { return way * (kept(s) - (y + way * (rise(s) - start))); };
+        for (int i = 1; i < LOOKS; ++i) {
+            if (beyond(look(a, b, i)) > 0.0) continue;
+            const double x = root(beyond, look(a, b, i - 1), look(a, b, i));
+            y_ = kept(x);
+            driven_ = false;
+            if (b - x <= EDGE_GAP) {
+                y_ = kept(b);
+                return b;
+            }
+            begin(x, 0);
+            return x;
+        }
+        y_ = y + way * (rise(b) - start);
+        return b;
+    }
+
+    /// Up to b, or to where the old profile falls or rises faster than friction holds.
+    double stay(double a, double b) {
+        double y[LOOKS], phi[LOOKS];
+        for (int i = 0; i < LOOKS; ++i) {
+            y[i] = kept(look(a, b, i));
+            phi[i] = rise(look(a, b, i));
+        }
+        for (int way : {-1, 1}) {
+            int least = 0;  // where way y - phi, which falls where the cone holds, is least so far
+            for (int i = 1; i < LOOKS; ++i) {
+                const double g = way * y[i] - phi[i], lowest = way * y[least] - phi[least];
+                if (g < lowest) least = i;
+                if (g - lowest > 10.0 * NOISE) return leave(a, b, way, least);
+            }
+        }
+        driven_ = false;
+        begin(a, 0);
+        y_ = kept(b);
+        return b;
+    }
+
+    double leave(double a, double b, int way, int least) {
+        const auto g = [&](double s) { return way * kept(s) - rise(s); };
+        double x = std::max(a, least_of(g, look(a, b, std::max(least - 1, 0)), look(a, b, least + 1)));
+        driven_ = false;
+        if (x > a + EDGE_GAP) begin(a, 0);
+        else x = a;
+        y_ = kept(x);
+        return slip(x, b, way);
+    }
+
+    /// Sliding at the limit from where the old profile leaves the cone, until it is met again.
+    double slip(double a, double b, int way) {
+        begin(a, way);
+        const double start = rise(a), y = y_;
+        const auto ahead = [&](double s) { return way * (kept(s) - (y + way * (rise(s) - start))); };
+        bool lost = false;
+        for (int i = 1; i < LOOKS; ++i) {
+            const double here = ahead(look(a, b, i));
+            if (here > 0.0 || !lost) {
+                lost = lost || here > NOISE;
+                continue;
+            }
+            const double x = root(ahead, look(a, b, i - 1), look(a, b, i));
+            y_ = kept(x);
+            if (x >= b - EDGE_GAP) return b;
+            begin(x, 0);
+            return x;
+        }
+        y_ = y + way * (rise(b) - start);
+        return b;
+    }
+
+    /// Where f falls through 0 between a and b: regula falsi of the Illinois kind.
+    template <class F>
+    static double root(const F& f, double a, double b) {
+        double fa = f(a), fb = f(b), x = a;
+        if (fa <= 0.0) return a;
+        for (int i = 0; i < 60; ++i) {
+            x = (a * fb - b * fa) / (fb - fa);
+            const double fx = f(x);
+            if (std::fabs(fx) < 1e-14 || b - a < 1e-13) return x;
+            if (fx > 0.0) {
+                a = x;
+                fa = fx;
+                fb *= 0.5;
+            } else {
+                b = x;
+                fb = fx;
+                fa *= 0.5;
+            }
+        }
+        return x;
+    }
+
+    /// Where f is least between a and b: golden sections.
+    template <class F>
+    static double least_of(const F& f, double a, double b) {
+        const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+        for (int i = 0; i < 40; ++i) {
+            const double c = b - ratio * (b - a), d = a + ratio * (b - a);
+            if (f(c) < f(d)) b = d;
+            else a = c;
+        }
+        return 0.5 * (a + b);
+    }
+
+    /// Runs as polynomials: cut at joints where it slides, at the old edges where it is stuck.
+    FrictionProfile pieces(const std::vector<double>& joints) const {
+        FrictionProfile out;
+        out.log.edges.push_back(runs_.front().start);
+        for (size_t k = 0; k < runs_.size(); ++k) {
+            const Run& run = runs_[k];
+            const double stop = k + 1 < runs_.size() ? runs_[k + 1].start : joints.back();
+            if (stop - run.start <= EDGE_GAP) continue;
+            std::vector<double> edges{run.start};
+            for (double cut : run.slide != 0 ? joints : old_.edges)
+                if (cut > run.start + EDGE_GAP && cut < stop - EDGE_GAP) edges.push_back(cut);
+            edges.push_back(stop);
+            for (size_t i = 0; i + 1 < edges.size(); ++i) {
+                out.log.edges.push_back(edges[i + 1]);
+                out.log.coefficients.push_back(piece(run, edges[i], edges[i + 1]));
+                out.slides.push_back(run.slide);
+                out.driven.push_back(run.driven);
+            }
+        }
+        return out;
+    }
+
+    PointValues piece(const Run& run, double a, double b) const {
+        PointValues y = points_between(a, b);
+        if (run.slide == 0) {
+            const int k = old_.piece(0.5 * (a + b));
+            for (double& at : y) at = old_.on(k, at);
+        } else {
+            const double base = wrap_.rise.on(wrap_.rise.piece(run.start + 1e-12), run.start);
+            for (double& at : y) at = run.y + run.slide * (wrap_.rise.at(at) - base);
+        }
+        return ChebyshevRules::times(ChebyshevRules::get().fit, y);
+    }
+};
+
+}  // namespace tactr

@@ -1,0 +1,461 @@
+#include "tendon_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "solve.hpp"
+
+namespace tactr {
+
+namespace {
+
+constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
+constexpr double MOST_MIXED = 20.0;   // weight of a pair
+constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
+constexpr double SHARE = 0.1;         // of the residual's tolerance may be missed by wraps
+constexpr double LEAST_AIM = 1e-10;   // rad, but not where the tolerance is less: sections are met no better
+constexpr double SETTLING = 1e-5;     // rad: wraps are known well enough to tell what a step misses
+
+double aim_of(double tolerance) { return larger(SHARE * tolerance, smaller(tolerance, LEAST_AIM)); }
+
+/// Tension over that at the base, as polynomials.
+void add_pieces(const FrictionProfile& profile, double y0, std::vector<TensionPiece>& out) {
+    const ChebyshevRules& rules = ChebyshevRules::get();
+    const auto& edges = profile.log.edges;
+    for (size_t k = 0; k + 1 < edges.size(); ++k) {
+        PointValues values;
+        const PointValues places = points_between(edges[k], edges[k + 1]);
+        for (int p = 0; p < CURVE_POINTS; ++p) values[p] = std::exp(profile.log.on(static_cast<int>(k), places[p]) - y0);
+        PointValues c = ChebyshevRules::times(rules.fit, values);
+        double largest = 0.0;
+        for (double x : c) largest = larger(largest, std::fabs(x));
+        int count = CURVE_POINTS;
+        while (count > 1 && !(std::fabs(c[count - 1]) > NEGLIGIBLE * largest)) c[--count] = 0.0;
+        c = ChebyshevRules::times(rules.powers, c);
+        TensionPiece piece{edges[k], count, {}};
+        double scale = 1.0;
+        for (int i = 0; i < count; ++i, scale /= edges[k + 1] - edges[k]) piece.c[i] = c[i] * scale;
+        out.push_back(piece);
+    }
+}
+
+/// Least-squares shares of the pairs in what was missed, newest pairs first; those that say nothing new have none.
+std::vector<double> shares(const std::vector<RoundsPair>& pairs, std::vector<double> missed) {
+    const size_t count = pairs.size();
+    std::vector<std::vector<double>> q(count);
+    std::vector<double> R(count * count, 0.0), share(count, 0.0);
+    const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0.0;
+        for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+        return sum;
+    };
+    for (size_t c = 0; c < count; ++c) {
+        q[c] = pairs[c].missed;
+        const double size = std::sqrt(dot(q[c], q[c]));
+        for (size_t r = 0; r < c; ++r) {
+            R[r * count + c] = dot(q[r], q[c]);
+            for (size_t i = 0; i < q[c].size(); ++i) q[c][i] -= R[r * count + c] * q[r][i];
+        }
+        const double left = std::sqrt(dot(q[c], q[c]));
+        const bool new_one = left > 1e-6 * size;
+        R[c * count + c] = new_one ? left : 0.0;
+        for (double& x : q[c]) x = new_one ? x / left : 0.0;
+    }
+    for (size_t c = count; c-- > 0;) {
+        if (R[c * count + c] == 0.0) continue;
+        double sum = dot(q[c], missed);
+        for (size_t d = c + 1; d < count; ++d) sum -= R[c * count + d] * share[d];
+        share[c] = sum / R[c * count + c];
+    }
+    for (double s : share)
+        if (!(std::fabs(s) < MOST_MIXED)) return std::vector<double>(count, 0.0);
+    return share;
+}
+
+std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> out(a.size());
+    for (size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
+    return out;
+}
+
+}  // namespace
+
+FrictionRounds::FrictionRounds(const RobotTables<double>& plain, const std::vector<FrictionChannel>& channels,
+                               std::vector<std::optional<Curve>> old, const std::vector<double>& translation)
+    : robot(plain), profiles(channels.size()), plain_(plain), channels_(channels), old_(std::move(old)), translation_(translation) {
+    const Layout<double> layout = cut_into_sections(plain.view(), translation.data());
+    std::vector<double> ends{layout.sections.front().proximal};
+    for (const auto& section : layout.sections) ends.push_back(section.distal);
+    for (const FrictionChannel& channel : channels) joints_.push_back(channel.joints(ends, translation[channel.tube]));
+}
+
+bool FrictionRounds::start(const Solution& solution) {
+    return channels_.empty() || read(plain_, solution, wraps_);
+}
+
+void FrictionRounds::start(const FrictionSettled& near, const FrictionSettled* before, double ahead) {
+    wraps_ = near.wraps;
+    std::vector<double> now, then;
+    numbers_of(wraps_, now);
+    for (const RoundsPair& pair : near.pairs)
+        if (pair.missed.size() == now.size() && static_cast<int>(pairs_.size()) < MOST_PAIRS) pairs_.push_back(pair);
+    if (!before || ahead == 0.0) return;
+    numbers_of(before->wraps, then);
+    std::vector<double> step = difference(now, then);
+    for (double& x : step) x *= ahead;
+    add(step, wraps_);
+}
+
+void FrictionRounds::profile(const std::vector<double>& tension) {
+    robot.profiles.clear();
+    for (size_t c = 0; c < channels_.size(); ++c) {
+        const double pull = tension[channels_[c].tendon];
+        profiles[c].reset();
+        if (!(pull > 0.0)) continue;
+        const Curve none = Curve::constant(NO_TENSION, channels_[c].end);
+        profiles[c] = FrictionWalk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull)).profile(joints_[c]);
+    }
+    size_t c = 0;
+    for (size_t j = 0; j < robot.tendons.size(); ++j) {
+        const Tendon& fixed = plain_.tendons[j];
+        robot.tendons[j].profile_begin = static_cast<int>(robot.profiles.size());
+        if (c < channels_.size() && channels_[c].tendon == static_cast<int>(j)) {
+            if (profiles[c]) add_pieces(*profiles[c], std::log(tension[j]), robot.profiles);
+            ++c;
+        } else {
+            robot.profiles.insert(robot.profiles.end(), plain_.profiles.begin() + fixed.profile_begin,
+                                  plain_.profiles.begin() + fixed.profile_end);
+        }
+        robot.tendons[j].profile_end = static_cast<int>(robot.profiles.size());
+    }
+}
+
+bool FrictionRounds::measure(const RobotTables<double>& shaped, const Solution& solution) {
+    ++rounds;
+    missed = 0.0;
+    if (channels_.empty()) return true;
+    return read(shaped, solution, after_) && compare();
+}
+
+bool FrictionRounds::read(const RobotTables<double>& shaped, const Solution& solution, std::vector<Wrap>& wraps) const {
+    Solution here = solution;
+    const Robot view = shaped.view();
+    const Actuation<double> at{here.tension.data(), here.rotation.data(), here.translation.data(), 1.0, 1.0};
+    NewtonSolver newton(view, at, Settings{});
+    if (!newton.take_over(solution, here)) return false;
+    return WrapReader(channels_, joints_).read(newton, here, wraps);
+}
+
+bool FrictionRounds::compare() {
+    missed = 0.0;
+    numbers_of(wraps_, own_);
+    numbers_of(after_, given_);
+    size_t n = 0;
+    for (const auto& joints : joints_) {
+        double rises = 0.0, jumps = 0.0;
+        for (size_t i = 0; i < (joints.size() - 1) * CURVE_POINTS; ++i, ++n) rises = larger(rises, std::fabs(given_[n] - own_[n]));
+        for (size_t i = 0; i < joints.size(); ++i, ++n) jumps += std::fabs(given_[n] - own_[n]);
+        missed = larger(missed, rises + jumps);
+    }
+    return std::isfinite(missed);
+}
+
+void FrictionRounds::mix(std::vector<double>& tension, const std::vector<double>& next) {
+    std::vector<double> gap = difference(given_, own_), given = given_;
+    for (size_t j = 0; j < next.size(); ++j) {
+        gap.push_back(next[j] - tension[j]);
+        given.push_back(next[j]);
+    }
+    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), [&](const RoundsPair& pair) { return pair.missed.size() != gap.size(); }),
+                 pairs_.end());
+    if (!last_missed_.empty()) {
+        pairs_.insert(pairs_.begin(), {difference(gap, last_missed_), difference(given, last_given_)});
+        if (static_cast<int>(pairs_.size()) > MOST_PAIRS) pairs_.pop_back();
+    }
+    const std::vector<double> share = shares(pairs_, gap);
+    std::vector<double> correction(given.size(), 0.0);
+    for (size_t c = 0; c < pairs_.size(); ++c)
+        for (size_t i = 0; i < correction.size(); ++i) correction[i] -= share[c] * pairs_[c].given[i];
+    wraps_ = after_;
+    add(correction, wraps_);
+    for (size_t j = 0; j < next.size(); ++j)
+        tension[j] = next[j] == 0.0 ? 0.0 : larger(next[j] + correction[given_.size() + j], 0.0);
+    last_missed_ = std::move(gap);
+    last_given_ = std::move(given);
+}
+
+bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& settings, const Solution& blank,
+                         const Solution& guess, const HistoryLimit& limit, FrictionSettled& out) {
+    const std::vector<double> tension(actuation.tension, actuation.tension + robot.tendons.size());
+    const double aim = aim_of(settings.residual_tolerance);
+    std::vector<double> none;
+    Solution near = guess;
+    bool solved = false;
+    while (rounds < MOST_ROUNDS) {
+        profile(tension);
+        const Robot view = robot.view();
+        const Glance seen = channels_.empty() ? Glance::failed : glance(view, actuation, settings, blank, solved, near);
+        const auto too_long = [&] {
+            return missed < SETTLING && limit.near && friction_history_missed(channels_, *limit.near, after_, tension) > limit.most;
+        };
+        if (seen != Glance::failed && too_long()) return false;
+        if (seen == Glance::failed || (seen == Glance::rigid && missed <= aim)) {
+            Solution found = blank;
+            solve(view, actuation, settings, &near, found);
+            if (found.status != Status::converged) return false;
+            const bool known = seen == Glance::rigid && found.mesh.steps == near.mesh.steps && found.mesh.grade == near.mesh.grade;
+            near = std::move(found);
+            solved = true;
+            if (!known && (!measure(robot, near) || too_long())) return false;
+        }
+        if (missed <= aim && solved && near.base_residual <= settings.residual_tolerance) {
+            settle(robot, near, out);
+            return true;
+        }
+        mix(none, none);
+    }
+    return false;
+}
+
+FrictionRounds::Glance FrictionRounds::glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings,
+                                              const Solution& blank, bool solved, Solution& near) {
+    NewtonSolver newton(view, actuation, settings);
+    const bool rigid = newton.shooting.unknowns == 0;
+    if (!rigid && !solved) return Glance::failed;
+    Solution trial = rigid ? blank : near;
+    if (!newton.take_over(near, trial) || (!rigid && !newton.step_by_derivatives(trial))) return Glance::failed;
+    if (newton.shooting.distance(near.free_end, trial.free_end) > NewtonSolver::CLOSE) return Glance::failed;
+    if (!WrapReader(channels_, joints_).read(newton, trial, after_)) return Glance::failed;
+    trial.status = Status::converged;
+    near = std::move(trial);
+    ++rounds;
+    return compare() ? (rigid ? Glance::rigid : Glance::carried) : Glance::failed;
+}
+
+void FrictionRounds::settle(const RobotTables<double>& shaped, const Solution& solution, FrictionSettled& out) const {
+    out.robot = shaped;
+    out.solution = solution;
+    out.profiles = profiles;
+    out.wraps = after_;
+    out.missed = missed;
+    out.rounds = rounds;
+    out.pairs = pairs_;
+}
+
+RobotTables<double> FrictionRounds::rates(const RobotTables<double>& still, size_t channel, double tension, bool all) const {
+    RobotTables<double> out = still;
+    out.profiles.clear();
+    for (size_t j = 0; j < robot.tendons.size(); ++j) {
+        const Tendon& tendon = robot.tendons[j];
+        out.tendons[j].profile_begin = tendon.profile_begin;
+        out.tendons[j].profile_end = tendon.profile_end;
+        for (int k = tendon.profile_begin; k < tendon.profile_end; ++k) {
+            TensionPiece rate{0.0, robot.profiles[k].count, {}};
+            if (channels_[channel].tendon == static_cast<int>(j) && (all || profiles[channel]->driven[k - tendon.profile_begin]))
+                for (int i = 0; i < rate.count; ++i) rate.c[i] = robot.profiles[k].c[i] / tension;
+            out.profiles.push_back(rate);
+        }
+    }
+    return out;
+}
+
+void FrictionRounds::numbers_of(const std::vector<Wrap>& wraps, std::vector<double>& out) const {
+    out.clear();
+    for (size_t c = 0; c < wraps.size(); ++c) {
+        const auto& joints = joints_[c];
+        for (size_t k = 0; k + 1 < joints.size(); ++k)
+            for (double sigma : points_between(joints[k], joints[k + 1])) out.push_back(wraps[c].rise.at(sigma));
+        for (double joint : joints) out.push_back(wraps[c].jump_at(joint));
+    }
+}
+
+void FrictionRounds::add(const std::vector<double>& numbers, std::vector<Wrap>& wraps) const {
+    const ChebyshevRules& rules = ChebyshevRules::get();
+    size_t n = 0;
+    for (size_t c = 0; c < wraps.size(); ++c) {
+        Curve& rise = wraps[c].rise;
+        Curve correction{joints_[c], {}};
+        for (size_t k = 0; k + 1 < joints_[c].size(); ++k, n += CURVE_POINTS) {
+            PointValues values;
+            std::copy(&numbers[n], &numbers[n] + CURVE_POINTS, values.begin());
+            correction.coefficients.push_back(ChebyshevRules::times(rules.fit, values));
+        }
+        for (size_t k = 0; k < rise.coefficients.size(); ++k) {
+            PointValues values = points_between(rise.edges[k], rise.edges[k + 1]);
+            const int piece = correction.piece(0.5 * (rise.edges[k] + rise.edges[k + 1]));
+            for (double& x : values) x = correction.on(piece, x);
+            values = ChebyshevRules::times(rules.fit, values);
+            for (int i = 0; i < CURVE_POINTS; ++i) rise.coefficients[k][i] += values[i];
+        }
+        for (double joint : joints_[c]) {
+            const double jump = numbers[n++];
+            for (size_t k = 0; k < rise.edges.size() && jump != 0.0; ++k)
+                if (std::fabs(rise.edges[k] - joint) <= EDGE_GAP) {
+                    wraps[c].jumps[k] = larger(wraps[c].jumps[k] + jump, 0.0);
+                    break;
+                }
+        }
+    }
+}
+
+// --- heat ----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// Falls of the tension: along every panel at its points, N/m, and at its proximal edge, N.
+struct Falls {
+    std::vector<PointValues> along;
+    std::vector<double> at_edges;
+
+    Falls(const std::optional<FrictionProfile>& profile, const std::vector<double>& edges)
+        : along(edges.size() - 1, PointValues{}), at_edges(edges.size() - 1, 0.0) {
+        double before = 0.0;
+        for (size_t k = 0; k < along.size() && profile; ++k) {
+            const double start = edges[k], end = edges[k + 1];
+            const int piece = profile->log.piece(0.5 * (start + end));
+            PointValues tension = points_between(start, end);
+            for (double& x : tension) x = std::exp(profile->log.on(piece, x));
+            along[k] = ChebyshevRules::times(ChebyshevRules::get().slope, tension);
+            for (double& x : along[k]) x *= -2.0 / (end - start);
+            if (k > 0) at_edges[k] = before - std::exp(profile->log.on(piece, start));
+            before = std::exp(profile->log.on(piece, end));
+        }
+    }
+};
+
+double rubbing(double before, double after) { return before * after > 0.0 ? 0.5 * (before + after) : after; }
+
+Curve rate_curve(const Wrap& wrap) {
+    Curve out{wrap.rise.edges, {}};
+    for (const PointValues& values : wrap.rate) out.coefficients.push_back(ChebyshevRules::times(ChebyshevRules::get().fit, values));
+    return out;
+}
+
+}  // namespace
+
+void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionSettled& before, const FrictionSettled& after,
+                   std::vector<double>& heat, std::vector<double>& creep) {
+    const ChebyshevRules& rules = ChebyshevRules::get();
+    heat.assign(channels.size(), 0.0);
+    creep.assign(channels.size(), 0.0);
+    for (size_t c = 0; c < channels.size(); ++c) {
+        std::vector<double> all{0.0, channels[c].end};
+        for (const FrictionSettled* settled : {&before, &after}) {
+            if (settled->profiles[c]) add_inner(settled->profiles[c]->log.edges, channels[c].end, all);
+            add_inner(settled->wraps[c].rise.edges, channels[c].end, all);
+        }
+        const std::vector<double> edges = merged(all);
+        const Curve rates[2] = {rate_curve(before.wraps[c]), rate_curve(after.wraps[c])};
+        const Falls falls[2] = {{before.profiles[c], edges}, {after.profiles[c], edges}};
+        double beyond = 0.0;  // how much shorter the path is from the panel's distal end on
+        for (size_t k = edges.size() - 1; k-- > 0;) {
+            const double half = 0.5 * (edges[k + 1] - edges[k]), middle = edges[k] + half;
+            const PointValues places = points_between(edges[k], edges[k + 1]);
+            const int pieces[2] = {rates[0].piece(middle), rates[1].piece(middle)};
+            PointValues shorter;
+            double whole = 0.0, along = 0.0;
+            for (int p = 0; p < CURVE_POINTS; ++p) {
+                shorter[p] = rates[0].on(pieces[0], places[p]) - rates[1].on(pieces[1], places[p]);
+                whole += rules.weight[p] * shorter[p] * half;
+            }
+            beyond += whole;
+            const PointValues inside = ChebyshevRules::times(rules.upto, shorter);
+            for (int p = 0; p < CURVE_POINTS; ++p)
+                along += rules.weight[p] * rubbing(falls[0].along[k][p], falls[1].along[k][p]) * (beyond - inside[p] * half);
+            heat[c] += along * half + rubbing(falls[0].at_edges[k], falls[1].at_edges[k]) * beyond;
+            const auto& profile = after.profiles[c];
+            if (profile && profile->slides[profile->log.piece(edges[k] + 1e-10)] == 0) creep[c] = larger(creep[c], std::fabs(beyond));
+        }
+    }
+}
+
+// --- what one step misses ------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr int LOOKS = 65, PARTS = 8;
+
+/// Of a tendon's path at places alike: its bend, and kinks since the place before, times the coefficient.
+struct Course {
+    Triple bend[LOOKS], kink[LOOKS];
+
+    explicit Course(const Wrap& wrap) : bend{}, kink{} {
+        const auto& edges = wrap.rise.edges;
+        const double end = edges.back();
+        int fitted = -1;
+        std::array<PointValues, 3> c;
+        for (int i = 0; i < LOOKS; ++i) {
+            const double sigma = end * i / (LOOKS - 1);
+            const int k = wrap.rise.piece(sigma);
+            if (k != fitted) fit(wrap, fitted = k, c);
+            for (int a = 0; a < 3; ++a) bend[i][a] = chebyshev_at(c[a], (2.0 * sigma - (edges[k] + edges[k + 1])) / (edges[k + 1] - edges[k]));
+        }
+        for (size_t k = 0; k < edges.size(); ++k) {
+            if (!(wrap.jumps[k] > 0.0)) continue;
+            const int i = std::min(LOOKS - 1, static_cast<int>(std::ceil(edges[k] / end * (LOOKS - 1) - 1e-9)));  // not before the edge
+            for (int a = 0; a < 3; ++a) kink[i][a] += wrap.kinks[k][a];
+        }
+    }
+
+    static void fit(const Wrap& wrap, int k, std::array<PointValues, 3>& c) {
+        for (int a = 0; a < 3; ++a) {
+            PointValues values;
+            for (int p = 0; p < CURVE_POINTS; ++p) values[p] = wrap.bend[k][p][a];
+            c[a] = ChebyshevRules::times(ChebyshevRules::get().fit, values);
+        }
+    }
+};
+
+double size_between(const Triple& a, const Triple& b, double part) {
+    double square = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        const double x = (1.0 - part) * a[i] + part * b[i];
+        square += x * x;
+    }
+    return std::sqrt(square);
+}
+
+/// y onto the cone at a part of the way, from the base on.
+void move_on(const Course& before, const Course& after, double part, double base, double spacing, double (&y)[LOOKS]) {
+    double bend_before = 0.0;
+    for (int i = 0; i < LOOKS; ++i) {
+        const double bend = size_between(before.bend[i], after.bend[i], part);
+        const double step = size_between(before.kink[i], after.kink[i], part) + (i > 0 ? 0.5 * (bend_before + bend) * spacing : 0.0);
+        base = y[i] = smaller(larger(y[i], base - step), base + step);
+        bend_before = bend;
+    }
+}
+
+/// from, to: tension at the base before and after.
+double missed_by(const Wrap& before, const Wrap& after, const std::optional<FrictionProfile>& old, double from, double to) {
+    const Course first(before), last(after);
+    const double end = after.rise.edges.back(), spacing = end / (LOOKS - 1);
+    double slowly[LOOKS], at_once[LOOKS], worst = 0.0;
+    for (int i = 0; i < LOOKS; ++i)
+        slowly[i] = at_once[i] = old ? old->log.at(smaller(i * spacing, end - 1e-12)) : NO_TENSION;
+    const auto base = [&](double part) { return std::log(larger((1.0 - part) * from + part * to, 1e-300)); };
+    for (int k = 1; k <= PARTS; ++k) {
+        const double part = static_cast<double>(k) / PARTS;
+        move_on(first, last, part, base(part), spacing, slowly);
+    }
+    move_on(first, last, 1.0, base(1.0), spacing, at_once);
+    for (int i = 0; i < LOOKS; ++i) worst = larger(worst, std::fabs(slowly[i] - at_once[i]));
+    return worst;
+}
+
+}  // namespace
+
+double friction_history_missed(const std::vector<FrictionChannel>& channels, const FrictionSettled& before,
+                               const std::vector<Wrap>& wraps, const std::vector<double>& tension) {
+    double worst = 0.0;
+    for (size_t c = 0; c < channels.size(); ++c) {
+        const int j = channels[c].tendon;
+        if (!(tension[j] > 0.0)) continue;
+        worst = larger(worst, missed_by(before.wraps[c], wraps[c], before.profiles[c], before.solution.tension[j], tension[j]));
+    }
+    return worst;
+}
+
+}  // namespace tactr
