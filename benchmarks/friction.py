@@ -4,7 +4,8 @@
 
 For every robot and path: time per point of ``tactr.drive`` (state in, state out, heat and stability of every
 step) and of ``Prepared.solve`` from the shape before without friction, along the same path; the least of the
-repeats, and the median, in CPU time, which does not count what else runs on the machine.
+repeats, and the median, in CPU time, which does not count what else runs on the machine; and the median ratio of the
+two, measured in turn.
 """
 
 from __future__ import annotations
@@ -42,14 +43,11 @@ def legs(corners: list[float], points: int) -> np.ndarray:
     return np.concatenate([[corners[0]], *parts])
 
 
-def least_and_median(run: Callable[[], object], repeats: int, points: int) -> tuple[float, float]:
-    """Microseconds per point."""
-    times = []
-    for _ in range(repeats):
-        start = time.process_time()
-        run()
-        times.append((time.process_time() - start) / points * 1e6)
-    return min(times), float(np.median(times))
+def microseconds(run: Callable[[], object], points: int) -> float:
+    """Of CPU, per point."""
+    start = time.process_time()
+    run()
+    return (time.process_time() - start) / points * 1e6
 
 
 def plain_run(prepared: Prepared, tension: np.ndarray, shape: Shape) -> None:
@@ -64,12 +62,16 @@ def compare(name: str, robot: Robot, plain: Robot, tension: np.ndarray, repeats:
     prepared = Prepared(plain)
     start = prepared.solve(tension=tension[0])
     count, steps = len(tension), sum(driven.steps)
-    drive = least_and_median(lambda: tactr.drive(robot, {"tension": tension}), repeats, count)
-    solve = least_and_median(lambda: plain_run(prepared, tension, start), repeats, count)
+    times = []
+    for _ in range(repeats):  # in turn: the speed of a machine changes while it is measured
+        drive = microseconds(lambda: tactr.drive(robot, {"tension": tension}), count)
+        solve = [microseconds(lambda: plain_run(prepared, tension, start), count) for _ in range(3)]
+        times.append((drive, float(np.median(solve))))
+    drive, solve = np.transpose(times)
     state = "" if driven.converged else "  NOT CONVERGED"
     print(
-        f"{name:34}{steps:5d}{drive[0]:10.0f}{drive[1]:10.0f}{solve[0]:10.0f}{solve[1]:10.0f}"
-        f"{drive[0] / solve[0]:8.1f}{state}"
+        f"{name:34}{steps:5d}{drive.min():10.0f}{np.median(drive):10.0f}{solve.min():10.0f}{np.median(solve):10.0f}"
+        f"{np.median(drive / solve):8.1f}{state}"
     )
 
 

@@ -134,14 +134,15 @@ void bind_friction(nb::module_& m) {
 
     nb::class_<FrictionRounds>(m, "FrictionRounds", "Rounds of profiles, shape and wraps.")
         .def("__init__",
-             [](FrictionRounds* self, const PreparedRobot& plain, const Channels& channels, const nb::list& old, const Vector& translation) {
+             [](FrictionRounds* self, const PreparedRobot& plain, const Channels& channels, const nb::list& old, const Vector& translation,
+                double precision) {
                  if (nb::len(old) != channels.list.size()) throw std::invalid_argument("one old profile for each channel");
                  for (const FrictionChannel& channel : channels.list)
                      if (channel.tendon >= static_cast<int>(plain.tendons.size()) || channel.tube >= static_cast<int>(plain.tubes.size()))
                          throw std::invalid_argument("a channel of another robot");
-                 new (self) FrictionRounds(plain, channels.list, curves_of(old), doubles_of(translation, plain.tubes.size(), "translation"));
+                 new (self) FrictionRounds(plain, channels.list, curves_of(old), doubles_of(translation, plain.tubes.size(), "translation"), precision);
              },
-             "plain"_a, "channels"_a, "old"_a, "translation"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+             "plain"_a, "channels"_a, "old"_a, "translation"_a, "precision"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("start_plain", [](FrictionRounds& r, const Solution& s) { if (!r.start(s)) throw std::runtime_error("the solution cannot be sampled"); },
              "solution"_a)
         .def("start_near", [](FrictionRounds& r, const FrictionSettled& near, const FrictionSettled* before, double ahead) { r.start(near, before, ahead); },
@@ -167,6 +168,7 @@ void bind_friction(nb::module_& m) {
         .def("run", &run, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a, "guess"_a, "stay"_a,
              "near"_a = nb::none(), "most_missed"_a = 0.0, "All rounds at given tensions; None: not found, or more missed of the history.")
         .def_ro("missed", &FrictionRounds::missed)
+        .def_ro("history_missed", &FrictionRounds::history_missed)
         .def_ro("rounds", &FrictionRounds::rounds);
 
     m.def("friction_heat", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
@@ -176,7 +178,7 @@ void bind_friction(nb::module_& m) {
         return nb::make_tuple(array_of(std::move(heat), {count}), array_of(std::move(creep), {count}));
     }, "channels"_a, "before"_a, "after"_a, "By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m.");
     m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
-        return friction_history_missed(channels.list, before, after.wraps, after.solution.tension);
+        return FrictionHistory(channels.list, before).missed(after.wraps, after.solution.tension);
     }, "channels"_a, "before"_a, "after"_a, "What one step misses of log tension that small ones would have seen.");
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "friction_wrap.hpp"
@@ -25,7 +26,9 @@ constexpr double NO_TENSION = -1e4;  // as a log tension: nothing comes down to 
 /// From the base to the end, cell by cell between edges of the old profile and of the wrap.
 class FrictionWalk {
   public:
-    FrictionWalk(const Curve& old, const Wrap& wrap, double y0) : old_(old), wrap_(wrap), y_(y0) {}
+    /// precision: rad, to which the wrap is known.
+    FrictionWalk(const Curve& old, const Wrap& wrap, double y0, double precision)
+        : noise_(NOISE * precision), most_beyond_(MOST_BEYOND * precision), old_(old), wrap_(wrap), y_(y0) {}
 
     /// joints: where a sliding profile is cut.
     FrictionProfile profile(const std::vector<double>& joints) {
@@ -37,7 +40,8 @@ class FrictionWalk {
     }
 
   private:
-    static constexpr double NOISE = 1e-9;  // of log tension: what the cone may be missed by before the tendon is taken to slide
+    static constexpr double NOISE = 0.1;        // of the precision: log tensions that are the same
+    static constexpr double MOST_BEYOND = 2.0;  // of the precision, by which a stuck tendon may be beyond the cone
     static constexpr int LOOKS = 33;       // places at which a cell is looked at
 
     struct Run {
@@ -47,6 +51,7 @@ class FrictionWalk {
         bool driven;
     };
 
+    const double noise_, most_beyond_;
     const Curve& old_;
     const Wrap& wrap_;
     std::vector<Run> runs_;
@@ -69,7 +74,7 @@ class FrictionWalk {
         double place = a;
         for (int turns = 0; turns < 8 && place < b; ++turns) {
             const double difference = y_ - kept(place);
-            place = std::fabs(difference) <= NOISE ? stay(place, b) : slide(place, b, difference > 0.0 ? -1 : 1);
+            place = std::fabs(difference) <= noise_ ? stay(place, b) : slide(place, b, difference > 0.0 ? -1 : 1);
         }
         if (place >= b) return;
         driven_ = false;  // so many turns within one cell are noise
@@ -118,7 +123,7 @@ class FrictionWalk {
             for (int i = 1; i < LOOKS; ++i) {
                 const double g = way * y[i] - phi[i], lowest = way * y[least] - phi[least];
                 if (g < lowest) least = i;
-                if (g - lowest > 10.0 * NOISE) return leave(a, b, way, least);
+                if (g - lowest > most_beyond_) return leave(a, b, way, least);
             }
         }
         driven_ = false;
@@ -146,7 +151,7 @@ class FrictionWalk {
         for (int i = 1; i < LOOKS; ++i) {
             const double here = ahead(look(a, b, i));
             if (here > 0.0 || !lost) {
-                lost = lost || here > NOISE;
+                lost = lost || here > noise_;
                 continue;
             }
             const double x = root(ahead, look(a, b, i - 1), look(a, b, i));
@@ -193,8 +198,21 @@ class FrictionWalk {
         return 0.5 * (a + b);
     }
 
+    /// Runs too short to matter, each with all that it holds left to the next.
+    void drop_slivers(double end) {
+        constexpr double SLIVER = 1e-5;  // of the tendon
+        for (size_t k = runs_.size() - 1; k-- > 0;) {
+            Run& next = runs_[k + 1];
+            if (next.start - runs_[k].start > SLIVER * end) continue;
+            if (next.slide != 0) next.y -= next.slide * (wrap_.rise.at(next.start) - wrap_.rise.at(runs_[k].start));
+            next.start = runs_[k].start;
+            runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+    }
+
     /// Runs as polynomials: cut at joints where it slides, at the old edges where it is stuck.
-    FrictionProfile pieces(const std::vector<double>& joints) const {
+    FrictionProfile pieces(const std::vector<double>& joints) {
+        drop_slivers(joints.back());
         FrictionProfile out;
         out.log.edges.push_back(runs_.front().start);
         for (size_t k = 0; k < runs_.size(); ++k) {

@@ -9,6 +9,7 @@
 
 #include "chebyshev.hpp"
 #include "newton.hpp"
+#include "tendon_chords.hpp"
 #include "tendon_directions.hpp"
 
 namespace tactr {
@@ -54,6 +55,7 @@ struct Wrap {
     std::vector<std::array<Triple, CURVE_POINTS>> bend;
     std::vector<Triple> kinks;
     std::vector<PointValues> rate;
+    bool straight = false;  // but for its kinks
 
     double jump_at(double sigma) const {
         double sum = 0.0;
@@ -78,6 +80,123 @@ class WrapReader {
     /// The shape as the solver has it: its free end and mesh in the solution, which gets the residual there. False: it
     /// cannot be marched along.
     bool read(NewtonSolver& newton, Solution& solution, std::vector<Wrap>& wraps) {
+        return bears_at_ends(newton) ? read_chords(newton, solution, wraps) : read_directions(newton, solution, wraps);
+    }
+
+  private:
+    static constexpr double SAME_DIRECTION = 1e-5;  // rad: but for the fit
+    using Directions = std::array<Triple, CURVE_POINTS>;
+
+    const std::vector<FrictionChannel>& channels_;
+    const Joints& joints_;
+    const ChebyshevRules& rules_ = ChebyshevRules::get();
+    std::vector<double> edges_, places_;  // s of the panels' ends, and of all their points
+    std::vector<Directions> directions_;  // of the channel, by panel
+
+    // --- chords between disks --------------------------------------------------------------------------------------
+
+    /// Whether there is nothing but disks, all of them at ends of sections.
+    bool bears_at_ends(const NewtonSolver& newton) const {
+        const auto& sections = newton.layout.sections;
+        for (const auto& section : sections)
+            if (section.guided) return false;
+        for (size_t c = 0; c < channels_.size(); ++c) {
+            const FrictionChannel& channel = channels_[c];
+            if (!channel.over_disks || (!channel.contacts.empty() && channel.contacts.front() <= EDGE_GAP)) return false;
+            size_t k = 0;
+            for (double joint : joints_[c]) {
+                const double s = joint + newton.actuation.translation[channel.tube];
+                while (k < sections.size() && sections[k].distal < s - EDGE_GAP) ++k;
+                if (k == sections.size()) return false;
+                if (std::fabs(sections[k].distal - s) > EDGE_GAP && std::fabs(sections[k].proximal - s) > EDGE_GAP) return false;
+            }
+        }
+        return true;
+    }
+
+    bool read_chords(NewtonSolver& newton, Solution& solution, std::vector<Wrap>& wraps) const {
+        TendonChords seen(newton.robot, newton.layout);
+        BaseState<double> base;
+        if (!newton.watch(solution, seen, base)) return false;
+        double turn[4];
+        newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
+        wraps.resize(channels_.size());
+        for (size_t c = 0; c < channels_.size(); ++c) {
+            const FrictionChannel& channel = channels_[c];
+            const double start = newton.actuation.translation[channel.tube];
+            Wrap& wrap = wraps[c];
+            clear(wrap);
+            std::vector<Triple> chord;
+            for (size_t k = 0; k < newton.layout.sections.size(); ++k) {
+                const auto& section = newton.layout.sections[k];
+                if (section.distal < start + EDGE_GAP || section.proximal > start + channel.end - EDGE_GAP) continue;
+                const TendonChord& part = seen.found[k * newton.robot.tendon_count + channel.tendon];
+                double along[3], out[3];
+                for (int a = 0; a < 3; ++a) along[a] = part.distal[a] - part.proximal[a];
+                to_world(turn, along, out);
+                chord.push_back({out[0], out[1], out[2]});
+                add_panel(section.distal - start, wrap);
+                wrap.rate.back().fill(part.length / (section.distal - section.proximal));
+            }
+            finish(channel, wrap);
+            note_disks(channel, chord, wrap);
+        }
+        return true;
+    }
+
+    /// chord: of the panels.
+    static void note_disks(const FrictionChannel& channel, const std::vector<Triple>& chord, Wrap& wrap) {
+        const auto& edges = wrap.rise.edges;
+        const auto span = [&](double from, double to) {
+            Triple sum{};
+            for (size_t k = 0; k < chord.size(); ++k)
+                if (edges[k] > from - EDGE_GAP && edges[k + 1] < to + EDGE_GAP)
+                    for (int a = 0; a < 3; ++a) sum[a] += chord[k][a];
+            return unit(sum);
+        };
+        Triple before{};
+        for (size_t n = 0; n <= channel.contacts.size(); ++n) {
+            const double from = n == 0 ? 0.0 : channel.contacts[n - 1];
+            const Triple after = span(from, n < channel.contacts.size() ? channel.contacts[n] : channel.end);
+            if (n > 0) note_disk(channel.coefficient(from), before, after, from, wrap);
+            before = after;
+        }
+    }
+
+    static void note_disk(double mu, const Triple& before, const Triple& after, double contact, Wrap& wrap) {
+        const auto& edges = wrap.rise.edges;
+        const auto nearest = std::min_element(edges.begin(), edges.end(), [&](double x, double y) {
+            return std::fabs(x - contact) < std::fabs(y - contact);
+        });
+        const size_t k = static_cast<size_t>(nearest - edges.begin());
+        wrap.jumps[k] += mu * angle_between(before, after);
+        for (int a = 0; a < 3; ++a) wrap.kinks[k][a] += mu * (after[a] - before[a]);
+    }
+
+    static void clear(Wrap& wrap) {
+        wrap.rise.edges.assign(1, 0.0);
+        wrap.rate.clear();
+    }
+
+    static void add_panel(double end, Wrap& wrap) {
+        wrap.rise.edges.push_back(end);
+        wrap.rate.emplace_back();
+    }
+
+    /// All panels are there: nothing turns yet.
+    static void finish(const FrictionChannel& channel, Wrap& wrap) {
+        const size_t panels = wrap.rate.size();
+        wrap.rise.edges.back() = channel.end;
+        wrap.rise.coefficients.assign(panels, PointValues{});
+        wrap.jumps.assign(panels + 1, 0.0);
+        wrap.bend.assign(panels, Directions{});
+        wrap.kinks.assign(panels + 1, Triple{});
+        wrap.straight = channel.over_disks;
+    }
+
+    // --- directions all along --------------------------------------------------------------------------------------
+
+    bool read_directions(NewtonSolver& newton, Solution& solution, std::vector<Wrap>& wraps) {
         find_panels(newton.layout, newton.actuation.translation);
         TendonDirections seen(newton.robot, newton.layout, places_);
         BaseState<double> base;
@@ -94,16 +213,6 @@ class WrapReader {
         }
         return true;
     }
-
-  private:
-    static constexpr double SAME_DIRECTION = 1e-5;  // rad: but for the fit
-    using Directions = std::array<Triple, CURVE_POINTS>;
-
-    const std::vector<FrictionChannel>& channels_;
-    const Joints& joints_;
-    const ChebyshevRules& rules_ = ChebyshevRules::get();
-    std::vector<double> edges_, places_;  // s of the panels' ends, and of all their points
-    std::vector<Directions> directions_;  // of the channel, by panel
 
     /// In each of them all directions are smooth: sections, cut at joints and where a routing has wound by much.
     void find_panels(const Layout<double>& layout, const double* translation) {
@@ -129,12 +238,10 @@ class WrapReader {
     void place(const FrictionChannel& channel, double base, int tendons, const TendonDirections& seen, Wrap& wrap) {
         size_t k = 0;
         while (0.5 * (edges_[k] + edges_[k + 1]) < base) ++k;
-        wrap.rise.edges.assign(1, 0.0);
-        wrap.rate.clear();
+        clear(wrap);
         directions_.clear();
         for (; k + 1 < edges_.size() && 0.5 * (edges_[k] + edges_[k + 1]) < base + channel.end; ++k) {
-            wrap.rise.edges.push_back(edges_[k + 1] - base);
-            wrap.rate.emplace_back();
+            add_panel(edges_[k + 1] - base, wrap);
             directions_.emplace_back();
             for (int p = 0; p < CURVE_POINTS; ++p) {
                 const TendonDirection& tendon = seen.found[(k * CURVE_POINTS + p) * tendons + channel.tendon];
@@ -142,12 +249,7 @@ class WrapReader {
                 directions_.back()[p] = tendon.direction;
             }
         }
-        wrap.rise.edges.back() = channel.end;
-        const size_t panels = directions_.size();
-        wrap.rise.coefficients.assign(panels, PointValues{});
-        wrap.jumps.assign(panels + 1, 0.0);
-        wrap.bend.assign(panels, Directions{});
-        wrap.kinks.assign(panels + 1, Triple{});
+        finish(channel, wrap);
     }
 
     /// Direction of a panel at its proximal or distal end.
@@ -207,14 +309,7 @@ class WrapReader {
         for (size_t n = 0; n < spans.size(); ++n) {
             const Triple after = unit(chord[n]);
             if (n > 0 || (!channel.contacts.empty() && channel.contacts.front() <= EDGE_GAP)) {
-                const auto& edges = wrap.rise.edges;
-                const auto nearest = std::min_element(edges.begin(), edges.end(), [&](double x, double y) {
-                    return std::fabs(x - spans[n]) < std::fabs(y - spans[n]);
-                });
-                const size_t k = static_cast<size_t>(nearest - edges.begin());
-                const double mu = channel.coefficient(spans[n]);
-                wrap.jumps[k] += mu * angle_between(before, after);
-                for (int a = 0; a < 3; ++a) wrap.kinks[k][a] += mu * (after[a] - before[a]);
+                note_disk(channel.coefficient(spans[n]), before, after, spans[n], wrap);
             }
             before = after;
         }

@@ -61,8 +61,38 @@ class NewtonSolver {
         solution.free_end = guess.free_end;
         solution.mesh = guess.mesh;
         solution.mesh.marched = guess.free_end;
+        note_edges(solution);
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
         return true;
+    }
+
+    /// From a neighbour's free end and derivatives where the robot is now cut into other sections: a tube's end has passed
+    /// another's, a tendon's tension changes its course elsewhere. They go on smoothly there, only the mesh does not fit:
+    /// steps are as long as the longest of the neighbour's. False: it is no neighbour.
+    bool carry_over(const Solution& guess, Solution& solution) {
+        const bool fits = guess.status == Status::converged && guess.mesh.unknowns == shooting.unknowns &&
+                          static_cast<int>(guess.rotation.size()) == robot.tube_count && settings.fixed_steps == 0 &&
+                          guess.mesh.edges.size() == guess.mesh.steps.size() + 1;
+        if (!fits) return false;
+        solution.free_end = guess.free_end;
+        std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
+        cut_mesh(solution);
+        for (size_t k = 0; k < layout.sections.size(); ++k) {
+            const double longest = guess.mesh.longest_step(layout.sections[k].proximal, layout.sections[k].distal);
+            if (!(longest > 0.0)) continue;
+            const double share = (layout.sections[k].distal - layout.sections[k].proximal) / longest;
+            solution.mesh.steps[k] = std::clamp(static_cast<int>(std::lround(share)), solution.mesh.steps[k], March<double, double>::MAX_STEPS);
+        }
+        solution.mesh.fit();
+        note_edges(solution);
+        if (shooting.unknowns > 0) approach(guess, solution);
+        return true;
+    }
+
+    void note_edges(Solution& solution) const {
+        auto& edges = solution.mesh.edges;
+        edges.assign(1, layout.sections.front().proximal);
+        for (const auto& section : layout.sections) edges.push_back(section.distal);
     }
 
     /// By the derivatives that the solution has to where they meet the base. False: a section had no equilibrium.

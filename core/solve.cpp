@@ -69,15 +69,20 @@ void solve_cold(NewtonSolver& newton, Solution& solution) {
     Settler(newton, solution).settle();
 }
 
-/// From a neighbour's free end alone, where the robot is now cut into other sections: a tube's end has passed another's.
-/// The free end goes on smoothly there, only the mesh does not fit.
-bool carry_over(NewtonSolver& newton, const Solution& guess, Solution& solution) {
+/// From a neighbour's free end alone.
+bool converge_near(NewtonSolver& newton, const Solution& guess, Solution& solution) {
     if (guess.status != Status::converged || guess.mesh.unknowns != newton.shooting.unknowns ||
         static_cast<int>(guess.rotation.size()) != newton.robot.tube_count)
         return false;
     solution.free_end = guess.free_end;
     newton.choose_mesh(solution);
     return newton.polish(solution);
+}
+
+/// From a neighbour, on its branch.
+bool converge_from(NewtonSolver& newton, const Solution& guess, Solution& solution) {
+    const bool began = newton.start_from(guess, solution) || newton.carry_over(guess, solution);
+    return (began && newton.polish(solution, NewtonSolver::Kind::draft)) || converge_near(newton, guess, solution);
 }
 
 }  // namespace
@@ -88,14 +93,14 @@ void solve(const Robot& robot, const Actuation<double>& actuation, const Setting
     settings.max_steps = std::min(most_steps_of(robot), given.most_work);
     if (guess && given.stay) settings.max_iterations = MOST_NEARBY;
     NewtonSolver newton(robot, actuation, settings);
-    if (guess && ((newton.start_from(*guess, solution) && newton.polish(solution, NewtonSolver::Kind::draft)) ||
-                  carry_over(newton, *guess, solution)))
-        return;
-    if (guess && settings.stay) {
+    if (guess && converge_from(newton, *guess, solution)) {
+        newton.note_edges(solution);
+    } else if (guess && settings.stay) {
         solution.status = Status::stalled;
-        return;
+    } else {
+        solve_cold(newton, solution);
+        newton.note_edges(solution);
     }
-    solve_cold(newton, solution);
 }
 
 std::vector<Solution> branches(const Robot& robot, const Actuation<double>& actuation, const Settings& given, int samples,

@@ -55,6 +55,7 @@ struct BaseState {
 struct Mesh {
     std::vector<int> steps;
     std::vector<double> grade;   // per section, length of a step over that of the one before, from the tip on; empty: 1
+    std::vector<double> edges;   // s of the sections' ends in a solution, from the base on; empty: not known
     std::vector<Strains> strains;
     std::vector<double> slopes;  // stage-major, unknowns innermost
     int unknowns = 0;            // 0: no slopes
@@ -83,6 +84,15 @@ struct Mesh {
         if (now < 2 || n < 2 || !(first_error > 0.0) || !(last_error > 0.0)) return grade_of(section);
         const double span = std::pow(grade_of(section), now - 1) * std::pow(first_error / last_error, 1.0 / 9.0);
         return std::pow(larger(1.0 / MOST, smaller(MOST, span)), 1.0 / (n - 1));
+    }
+
+    /// Of all sections that reach between two places; 0: none does.
+    double longest_step(double from, double to) const {
+        constexpr double SPECK = 1e-9;  // m
+        double longest = 0.0;
+        for (size_t k = 0; k < steps.size(); ++k)
+            if (edges[k] < to - SPECK && edges[k + 1] > from + SPECK) longest = larger(longest, (edges[k + 1] - edges[k]) / steps[k]);
+        return longest;
     }
 
     int total() const {

@@ -12,13 +12,9 @@ namespace tactr {
 namespace {
 
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
+constexpr int LOOKING = 2;            // rounds after each of which is seen whether a step is too long
 constexpr double MOST_MIXED = 20.0;   // weight of a pair
 constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
-constexpr double SHARE = 0.1;         // of the residual's tolerance may be missed by wraps
-constexpr double LEAST_AIM = 1e-10;   // rad, but not where the tolerance is less: sections are met no better
-constexpr double SETTLING = 1e-5;     // rad: wraps are known well enough to tell what a step misses
-
-double aim_of(double tolerance) { return larger(SHARE * tolerance, smaller(tolerance, LEAST_AIM)); }
 
 /// Tension over that at the base, as polynomials.
 void add_pieces(const FrictionProfile& profile, double y0, std::vector<TensionPiece>& out) {
@@ -83,8 +79,8 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
 }  // namespace
 
 FrictionRounds::FrictionRounds(const RobotTables<double>& plain, const std::vector<FrictionChannel>& channels,
-                               std::vector<std::optional<Curve>> old, const std::vector<double>& translation)
-    : robot(plain), profiles(channels.size()), plain_(plain), channels_(channels), old_(std::move(old)), translation_(translation) {
+                               std::vector<std::optional<Curve>> old, const std::vector<double>& translation, double precision)
+    : robot(plain), profiles(channels.size()), plain_(plain), channels_(channels), old_(std::move(old)), translation_(translation), precision_(precision) {
     const Layout<double> layout = cut_into_sections(plain.view(), translation.data());
     std::vector<double> ends{layout.sections.front().proximal};
     for (const auto& section : layout.sections) ends.push_back(section.distal);
@@ -115,7 +111,7 @@ void FrictionRounds::profile(const std::vector<double>& tension) {
         profiles[c].reset();
         if (!(pull > 0.0)) continue;
         const Curve none = Curve::constant(NO_TENSION, channels_[c].end);
-        profiles[c] = FrictionWalk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull)).profile(joints_[c]);
+        profiles[c] = FrictionWalk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull), precision_).profile(joints_[c]);
     }
     size_t c = 0;
     for (size_t j = 0; j < robot.tendons.size(); ++j) {
@@ -189,7 +185,9 @@ void FrictionRounds::mix(std::vector<double>& tension, const std::vector<double>
 bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& settings, const Solution& blank,
                          const Solution& guess, const HistoryLimit& limit, FrictionSettled& out) {
     const std::vector<double> tension(actuation.tension, actuation.tension + robot.tendons.size());
-    const double aim = aim_of(settings.residual_tolerance);
+    const double aim = settings.residual_tolerance;
+    std::optional<FrictionHistory> history;
+    if (limit.near) history.emplace(channels_, *limit.near);
     std::vector<double> none;
     Solution near = guess;
     bool solved = false;
@@ -197,8 +195,9 @@ bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& set
         profile(tension);
         const Robot view = robot.view();
         const Glance seen = channels_.empty() ? Glance::failed : glance(view, actuation, settings, blank, solved, near);
-        const auto too_long = [&] {
-            return missed < SETTLING && limit.near && friction_history_missed(channels_, *limit.near, after_, tension) > limit.most;
+        const auto too_long = [&] {  // for all that the wraps may still change
+            if (history && (rounds <= LOOKING || missed <= aim)) history_missed = history->missed(after_, tension);
+            return history_missed > limit.most + 2.0 * missed;
         };
         if (seen != Glance::failed && too_long()) return false;
         if (seen == Glance::failed || (seen == Glance::rigid && missed <= aim)) {
@@ -298,164 +297,6 @@ void FrictionRounds::add(const std::vector<double>& numbers, std::vector<Wrap>& 
                 }
         }
     }
-}
-
-// --- heat ----------------------------------------------------------------------------------------------------------
-
-namespace {
-
-/// Falls of the tension: along every panel at its points, N/m, and at its proximal edge, N.
-struct Falls {
-    std::vector<PointValues> along;
-    std::vector<double> at_edges;
-
-    Falls(const std::optional<FrictionProfile>& profile, const std::vector<double>& edges)
-        : along(edges.size() - 1, PointValues{}), at_edges(edges.size() - 1, 0.0) {
-        double before = 0.0;
-        for (size_t k = 0; k < along.size() && profile; ++k) {
-            const double start = edges[k], end = edges[k + 1];
-            const int piece = profile->log.piece(0.5 * (start + end));
-            PointValues tension = points_between(start, end);
-            for (double& x : tension) x = std::exp(profile->log.on(piece, x));
-            along[k] = ChebyshevRules::times(ChebyshevRules::get().slope, tension);
-            for (double& x : along[k]) x *= -2.0 / (end - start);
-            if (k > 0) at_edges[k] = before - std::exp(profile->log.on(piece, start));
-            before = std::exp(profile->log.on(piece, end));
-        }
-    }
-};
-
-double rubbing(double before, double after) { return before * after > 0.0 ? 0.5 * (before + after) : after; }
-
-Curve rate_curve(const Wrap& wrap) {
-    Curve out{wrap.rise.edges, {}};
-    for (const PointValues& values : wrap.rate) out.coefficients.push_back(ChebyshevRules::times(ChebyshevRules::get().fit, values));
-    return out;
-}
-
-}  // namespace
-
-void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionSettled& before, const FrictionSettled& after,
-                   std::vector<double>& heat, std::vector<double>& creep) {
-    const ChebyshevRules& rules = ChebyshevRules::get();
-    heat.assign(channels.size(), 0.0);
-    creep.assign(channels.size(), 0.0);
-    for (size_t c = 0; c < channels.size(); ++c) {
-        std::vector<double> all{0.0, channels[c].end};
-        for (const FrictionSettled* settled : {&before, &after}) {
-            if (settled->profiles[c]) add_inner(settled->profiles[c]->log.edges, channels[c].end, all);
-            add_inner(settled->wraps[c].rise.edges, channels[c].end, all);
-        }
-        const std::vector<double> edges = merged(all);
-        const Curve rates[2] = {rate_curve(before.wraps[c]), rate_curve(after.wraps[c])};
-        const Falls falls[2] = {{before.profiles[c], edges}, {after.profiles[c], edges}};
-        double beyond = 0.0;  // how much shorter the path is from the panel's distal end on
-        for (size_t k = edges.size() - 1; k-- > 0;) {
-            const double half = 0.5 * (edges[k + 1] - edges[k]), middle = edges[k] + half;
-            const PointValues places = points_between(edges[k], edges[k + 1]);
-            const int pieces[2] = {rates[0].piece(middle), rates[1].piece(middle)};
-            PointValues shorter;
-            double whole = 0.0, along = 0.0;
-            for (int p = 0; p < CURVE_POINTS; ++p) {
-                shorter[p] = rates[0].on(pieces[0], places[p]) - rates[1].on(pieces[1], places[p]);
-                whole += rules.weight[p] * shorter[p] * half;
-            }
-            beyond += whole;
-            const PointValues inside = ChebyshevRules::times(rules.upto, shorter);
-            for (int p = 0; p < CURVE_POINTS; ++p)
-                along += rules.weight[p] * rubbing(falls[0].along[k][p], falls[1].along[k][p]) * (beyond - inside[p] * half);
-            heat[c] += along * half + rubbing(falls[0].at_edges[k], falls[1].at_edges[k]) * beyond;
-            const auto& profile = after.profiles[c];
-            if (profile && profile->slides[profile->log.piece(edges[k] + 1e-10)] == 0) creep[c] = larger(creep[c], std::fabs(beyond));
-        }
-    }
-}
-
-// --- what one step misses ------------------------------------------------------------------------------------------
-
-namespace {
-
-constexpr int LOOKS = 65, PARTS = 8;
-
-/// Of a tendon's path at places alike: its bend, and kinks since the place before, times the coefficient.
-struct Course {
-    Triple bend[LOOKS], kink[LOOKS];
-
-    explicit Course(const Wrap& wrap) : bend{}, kink{} {
-        const auto& edges = wrap.rise.edges;
-        const double end = edges.back();
-        int fitted = -1;
-        std::array<PointValues, 3> c;
-        for (int i = 0; i < LOOKS; ++i) {
-            const double sigma = end * i / (LOOKS - 1);
-            const int k = wrap.rise.piece(sigma);
-            if (k != fitted) fit(wrap, fitted = k, c);
-            for (int a = 0; a < 3; ++a) bend[i][a] = chebyshev_at(c[a], (2.0 * sigma - (edges[k] + edges[k + 1])) / (edges[k + 1] - edges[k]));
-        }
-        for (size_t k = 0; k < edges.size(); ++k) {
-            if (!(wrap.jumps[k] > 0.0)) continue;
-            const int i = std::min(LOOKS - 1, static_cast<int>(std::ceil(edges[k] / end * (LOOKS - 1) - 1e-9)));  // not before the edge
-            for (int a = 0; a < 3; ++a) kink[i][a] += wrap.kinks[k][a];
-        }
-    }
-
-    static void fit(const Wrap& wrap, int k, std::array<PointValues, 3>& c) {
-        for (int a = 0; a < 3; ++a) {
-            PointValues values;
-            for (int p = 0; p < CURVE_POINTS; ++p) values[p] = wrap.bend[k][p][a];
-            c[a] = ChebyshevRules::times(ChebyshevRules::get().fit, values);
-        }
-    }
-};
-
-double size_between(const Triple& a, const Triple& b, double part) {
-    double square = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        const double x = (1.0 - part) * a[i] + part * b[i];
-        square += x * x;
-    }
-    return std::sqrt(square);
-}
-
-/// y onto the cone at a part of the way, from the base on.
-void move_on(const Course& before, const Course& after, double part, double base, double spacing, double (&y)[LOOKS]) {
-    double bend_before = 0.0;
-    for (int i = 0; i < LOOKS; ++i) {
-        const double bend = size_between(before.bend[i], after.bend[i], part);
-        const double step = size_between(before.kink[i], after.kink[i], part) + (i > 0 ? 0.5 * (bend_before + bend) * spacing : 0.0);
-        base = y[i] = smaller(larger(y[i], base - step), base + step);
-        bend_before = bend;
-    }
-}
-
-/// from, to: tension at the base before and after.
-double missed_by(const Wrap& before, const Wrap& after, const std::optional<FrictionProfile>& old, double from, double to) {
-    const Course first(before), last(after);
-    const double end = after.rise.edges.back(), spacing = end / (LOOKS - 1);
-    double slowly[LOOKS], at_once[LOOKS], worst = 0.0;
-    for (int i = 0; i < LOOKS; ++i)
-        slowly[i] = at_once[i] = old ? old->log.at(smaller(i * spacing, end - 1e-12)) : NO_TENSION;
-    const auto base = [&](double part) { return std::log(larger((1.0 - part) * from + part * to, 1e-300)); };
-    for (int k = 1; k <= PARTS; ++k) {
-        const double part = static_cast<double>(k) / PARTS;
-        move_on(first, last, part, base(part), spacing, slowly);
-    }
-    move_on(first, last, 1.0, base(1.0), spacing, at_once);
-    for (int i = 0; i < LOOKS; ++i) worst = larger(worst, std::fabs(slowly[i] - at_once[i]));
-    return worst;
-}
-
-}  // namespace
-
-double friction_history_missed(const std::vector<FrictionChannel>& channels, const FrictionSettled& before,
-                               const std::vector<Wrap>& wraps, const std::vector<double>& tension) {
-    double worst = 0.0;
-    for (size_t c = 0; c < channels.size(); ++c) {
-        const int j = channels[c].tendon;
-        if (!(tension[j] > 0.0)) continue;
-        worst = larger(worst, missed_by(before.wraps[c], wraps[c], before.profiles[c], before.solution.tension[j], tension[j]));
-    }
-    return worst;
 }
 
 }  // namespace tactr

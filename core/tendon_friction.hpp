@@ -3,29 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "friction_project.hpp"
-#include "robot_tables.hpp"
-#include "solution.hpp"
+#include "friction_history.hpp"
+#include "friction_settled.hpp"
 
 namespace tactr {
 
-/// One pair of Anderson's mixing: by how much what two rounds missed, and what they gave, differ.
-struct RoundsPair {
-    std::vector<double> missed, given;
-};
-
-/// One equilibrium with friction: the robot with its profiles, by channel (none where slack), and the wraps in its shape.
-struct FrictionSettled {
-    RobotTables<double> robot;
-    Solution solution;
-    std::vector<std::optional<FrictionProfile>> profiles;
-    std::vector<Wrap> wraps;
-    double missed = 0.0;  // rad, by how much wraps and profiles disagree
-    int rounds = 0;
-    std::vector<RoundsPair> pairs;  // of the last rounds
-};
-
-/// A step is given up where it misses more of its history since the equilibrium near by: see friction_history_missed.
+/// A step is given up where it misses more of its history since the equilibrium near by: see FrictionHistory.
 struct HistoryLimit {
     const FrictionSettled* near = nullptr;  // none: no limit
     double most = 0.0;                      // of log tension
@@ -39,11 +22,13 @@ class FrictionRounds {
     RobotTables<double> robot;  // with the profiles of the round
     std::vector<std::optional<FrictionProfile>> profiles;
     double missed = 0.0;
+    double history_missed = 0.0;  // by the step, where there is a limit to it
     int rounds = 0;
 
-    /// plain: without profiles of friction; old: log tension before, none where there was no tension.
+    /// plain: without profiles of friction; old: log tension before, none where there was no tension; precision: rad, to
+    /// which shapes are found.
     FrictionRounds(const RobotTables<double>& plain, const std::vector<FrictionChannel>& channels,
-                   std::vector<std::optional<Curve>> old, const std::vector<double>& translation);
+                   std::vector<std::optional<Curve>> old, const std::vector<double>& translation, double precision);
 
     /// From the wraps in a shape without friction. False: it cannot be sampled.
     bool start(const Solution& solution);
@@ -75,6 +60,7 @@ class FrictionRounds {
     const std::vector<FrictionChannel>& channels_;
     const std::vector<std::optional<Curve>> old_;
     const std::vector<double> translation_;
+    const double precision_;
     std::vector<std::vector<double>> joints_;
     std::vector<Wrap> wraps_, after_;      // of this round, and in its shape
     std::vector<double> own_, given_;      // both as numbers
@@ -93,18 +79,5 @@ class FrictionRounds {
     void numbers_of(const std::vector<Wrap>& wraps, std::vector<double>& out) const;
     void add(const std::vector<double>& numbers, std::vector<Wrap>& wraps) const;
 };
-
-/// Of one step, by channel: heat, J, and the largest slip where the tendon counts as stuck, m. The tendon's end does not
-/// slip; a place slips by what the path beyond it has become shorter. Friction is the fall of tension along the tendon: its
-/// mean over the step where it points the same way before and after, otherwise that after, for it turns round before there
-/// is slip.
-void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionSettled& before, const FrictionSettled& after,
-                   std::vector<double>& heat, std::vector<double>& creep);
-
-/// By how much log tension comes out different where it is moved onto the cone at places on the way, too; the largest of all
-/// channels. The cone between the ends is estimated from curvatures of the tendons' paths and tensions at the base that
-/// change linearly. wraps, tension (tendons,): after the step.
-double friction_history_missed(const std::vector<FrictionChannel>& channels, const FrictionSettled& before,
-                               const std::vector<Wrap>& wraps, const std::vector<double>& tension);
 
 }  // namespace tactr

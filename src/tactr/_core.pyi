@@ -140,6 +140,7 @@ class FrictionRounds:
     """Rounds of profiles, shape and wraps."""
 
     missed: float
+    history_missed: float
     rounds: int
 
     def __init__(
@@ -148,8 +149,10 @@ class FrictionRounds:
         channels: FrictionChannels,
         old: list[tuple[np.ndarray, np.ndarray] | None],
         translation: np.ndarray,
+        precision: float,
     ) -> None:
-        """old: edges and Chebyshev coefficients of log tension before, None without tension; by channel."""
+        """old: edges and Chebyshev coefficients of log tension before, None without tension; by channel.
+        precision: rad, to which shapes are found."""
 
     def start_plain(self, solution: Solution) -> None:
         """From the wraps in a shape without friction."""

@@ -97,7 +97,9 @@ class Equilibrium:
         tubes, that is left to the caller."""
         prepared = self._prepared
         curves = [None if curve is None else (curve.edges, curve.coefficients) for curve in old]
-        rounds = _core.FrictionRounds(prepared._core, self.rows, curves, arrays[2])
+        rounds = _core.FrictionRounds(
+            prepared._core, self.rows, curves, arrays[2], prepared.residual_tolerance
+        )
         if near is None:
             rounds.start_plain(solution)
         elif before is None:
