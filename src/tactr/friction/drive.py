@@ -52,11 +52,11 @@ def drive(
     RobotError.
     """
     points = path_points(robot, path)
-    _check(points[0])
-    prepared = Prepared(points[0], tolerance=tolerance, stations=stations)
+    _check(points.first)
+    prepared = Prepared(points.first, tolerance=tolerance, stations=stations)
     if state is not None:
         state.fits(robot)
-    return _Driver(prepared, [Actuators.of(p) for p in points]).run(state, progress)
+    return _Driver(prepared, Actuators.along(points)).run(state, progress)
 
 
 def _check(robot: Robot) -> None:
