@@ -146,10 +146,11 @@ class FrictionRounds:
         self,
         plain: PreparedRobot,
         channels: FrictionChannels,
-        old: list[tuple[np.ndarray, np.ndarray] | None],
+        old: list,
         translation: np.ndarray,
     ) -> None:
-        """old: edges and Chebyshev coefficients of log tension before, None without tension; by channel."""
+        """old: edges and Chebyshev coefficients of log tension before, and anything after them, None without
+        tension; by channel."""
 
     def start_plain(self, solution: Solution) -> None:
         """From the wraps in a shape without friction."""
