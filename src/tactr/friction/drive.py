@@ -89,7 +89,7 @@ class _Driver:
         shapes, states, failed, steps = [], [], [], []
         held = np.zeros(len(self._points), dtype=int)
         index = [c.index for c in self._equilibrium.channels]
-        heats, creeps = np.zeros((2, len(self._points), len(index)))
+        heats, creeps = ([[0.0] * len(index) for _ in self._points] for _ in range(2))
         tube_heats = np.zeros((len(self._points), len(self._robot.tubes)))
         state = self._rest() if state is None else state
         self._return(state)
@@ -146,8 +146,8 @@ class _Driver:
         self,
         point: Actuators,
         state: DriveState,
-        heats: np.ndarray,
-        creeps: np.ndarray,
+        heats: list[float],
+        creeps: list[float],
         tube_heats: np.ndarray,
     ) -> tuple[DriveState, int]:
         """The state at a point, and in how many steps it was reached; 0: not. heats, creeps: by channel."""
@@ -176,8 +176,9 @@ class _Driver:
                     return state, 0
             if self._equilibrium.channels:
                 lost, crept = _core.friction_heat(self._equilibrium.rows, near.found, settled.found)
-                heats += lost
-                np.maximum(creeps, crept, out=creeps)
+                for c, (loss, slip) in enumerate(zip(lost.tolist(), crept.tolist(), strict=True)):
+                    heats[c] += loss
+                    creeps[c] = max(creeps[c], slip)
             if settled.tubes is not None:
                 tube_heats += settled.tubes.heat_from(state.rubbing, state.tubes)
             state = self._taken(settled, ahead, state)

@@ -46,12 +46,12 @@ class Settled:
     tubes: TubeFrictionState | None = None
     held: int = 0
 
-    @cached_property
+    @property
     def core(self) -> _core.PreparedRobot:
         """The robot with its profiles."""
         return self.found.robot
 
-    @cached_property
+    @property
     def solution(self) -> _core.Solution:
         """Its shape."""
         return self.found.solution
@@ -66,9 +66,12 @@ class Equilibrium:
         self.channels = channels(robot)
         self._index = tuple(c.index for c in self.channels)
         self.rows = _core.FrictionChannels([c.row for c in self.channels])
-        self._still = _without_rates(robot)
         self.tube_step = TubeFrictionStep(robot, prepared.tolerance, prepared.residual_tolerance)
         self._tubes_rub = self.tube_step.rubs
+
+    @cached_property
+    def _still(self) -> _core.PreparedRobot:
+        return _without_rates(self._prepared.robot)
 
     def settle(
         self,

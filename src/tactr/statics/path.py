@@ -56,7 +56,9 @@ def path_points(robot: Robot, path: Path) -> PathPoints:
 def _points(robots: list[Robot], copies: int = 1, **given: np.ndarray) -> PathPoints:
     """Of robots at all points, or of so many copies of one but for what is given, an array by kind."""
     reads = {"tension": tensions, "rotation": rotations, "translation": translations, "displacement": _pulls}
-    read = {k: np.tile([of(r) for r in robots], (copies, 1)) for k, of in reads.items() if k not in given}
+    read = {
+        k: np.repeat([of(r) for r in robots], copies, axis=0) for k, of in reads.items() if k not in given
+    }
     return PathPoints(robots[0], **read, **given)
 
 
