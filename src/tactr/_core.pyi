@@ -147,12 +147,12 @@ class FrictionRounds:
         self,
         plain: PreparedRobot,
         channels: FrictionChannels,
-        old: list[tuple[np.ndarray, np.ndarray] | None],
+        old: list,
         translation: np.ndarray,
         precision: float,
     ) -> None:
-        """old: edges and Chebyshev coefficients of log tension before, None without tension; by channel.
-        precision: rad, to which shapes are found."""
+        """old: edges and Chebyshev coefficients of log tension before, and anything after them, None without
+        tension; by channel. precision: rad, to which shapes are found."""
 
     def start_plain(self, solution: Solution) -> None:
         """From the wraps in a shape without friction."""

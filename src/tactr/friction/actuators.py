@@ -9,7 +9,7 @@ import numpy as np
 
 from tactr.friction.play import passed_on
 from tactr.robot import Robot
-from tactr.statics.actuation import displacements, rotations, tensions, translations
+from tactr.statics.path import PathPoints
 
 FIELDS = ("tension", "rotation", "translation", "displacement")
 
@@ -25,12 +25,10 @@ class Actuators:
     displacement: np.ndarray
 
     @staticmethod
-    def of(robot: Robot) -> Actuators:
-        pulls = displacements(robot)
-        none = np.full(len(robot.tendons), np.nan)
-        return Actuators(
-            tensions(robot), rotations(robot), translations(robot), none if pulls is None else pulls
-        )
+    def along(points: PathPoints) -> list[Actuators]:
+        """At every point of a path."""
+        rows = zip(points.tension, points.rotation, points.translation, points.displacement, strict=True)
+        return [Actuators(*row) for row in rows]
 
     def towards(self, other: Actuators, part: float) -> Actuators:
         """Part of the way to another."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from tactr.robot import Robot, Tendon
+from tactr.robot import Robot, Routing
 from tactr.robot.friction import FrictionPieces, friction_pieces, rubs
 from tactr.statics.assemble import tendon_end
 
@@ -32,7 +33,7 @@ class Channel:
         end = tendon_end(robot, tendon)
         contacts = None if tendon.contacts is None else tuple(c for c in tendon.contacts if c < end)
         pieces = friction_pieces(tendon.friction)
-        return Channel(j, names.index(tendon.tube), end, pieces, contacts, _windings(tendon, end))
+        return Channel(j, names.index(tendon.tube), end, pieces, contacts, _windings(tendon.routing, end))
 
     @property
     def row(self) -> tuple[int, int, float, list, list | None, list]:
@@ -46,10 +47,11 @@ def channels(robot: Robot) -> list[Channel]:
     return [Channel.of(robot, j) for j, tendon in enumerate(robot.tendons) if rubs(tendon.friction)]
 
 
-def _windings(tendon: Tendon, end: float) -> tuple[float, ...]:
-    """Places that cut the routing where it has turned by so much."""
+@lru_cache(maxsize=512)
+def _windings(routing: Routing, end: float) -> tuple[float, ...]:
+    """Places that cut the routing where it has turned by so much. Kept: one robot is driven many times."""
     sigma = np.linspace(0.0, end, 257)
-    xy, _ = tendon.routing.evaluate(sigma)
+    xy, _ = routing.evaluate(sigma)
     x, y = xy[..., 0], xy[..., 1]
     turned = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(np.unwrap(np.arctan2(y, x)))))])
     if turned[-1] <= WINDING or not (np.hypot(x, y) > 1e-9).all():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from tactr.friction.driven import Driven
 from tactr.friction.equilibrium import Equilibrium, Settled
 from tactr.friction.plain import plain_shape
 from tactr.friction.profile import Profile
+from tactr.friction.profiles import GivenProfiles
 from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
 from tactr.robot.friction import rubs
@@ -52,11 +54,11 @@ def drive(
     RobotError.
     """
     points = path_points(robot, path)
-    _check(points[0])
-    prepared = Prepared(points[0], tolerance=tolerance, stations=stations)
+    _check(points.first)
+    prepared = Prepared(points.first, tolerance=tolerance, stations=stations)
     if state is not None:
         state.fits(robot)
-    return _Driver(prepared, [Actuators.of(p) for p in points]).run(state, progress)
+    return _Driver(prepared, Actuators.along(points)).run(state, progress)
 
 
 def _check(robot: Robot) -> None:
@@ -75,6 +77,10 @@ class _Driver:
         self._prepared, self._points = prepared, points
         self._robot = prepared.robot
         self._plays = Plays.of(self._robot)
+        self._pulled = ~np.isnan(points[0].displacement)
+        self._any_pulled = bool(self._pulled.any())
+        profiled = any(isinstance(t.tension, TensionProfile) for t in self._robot.tendons)
+        self._all_by_tension = not (profiled or self._any_pulled)
         self._equilibrium = Equilibrium(prepared)
         self._near: Settled | None = None
         self._before: Settled | None = None  # what was found before that
@@ -82,8 +88,8 @@ class _Driver:
     def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
         shapes, states, failed, steps = [], [], [], []
         held = np.zeros(len(self._points), dtype=int)
-        tendons = len(self._robot.tendons)
-        heats, creeps = np.zeros((len(self._points), tendons)), np.zeros((len(self._points), tendons))
+        index = [c.index for c in self._equilibrium.channels]
+        heats, creeps = ([[0.0] * len(index) for _ in self._points] for _ in range(2))
         tube_heats = np.zeros((len(self._points), len(self._robot.tubes)))
         state = self._rest() if state is None else state
         self._return(state)
@@ -98,8 +104,10 @@ class _Driver:
             failed.append("" if good and shapes[-1].converged else self._why(shapes[-1]))
             if progress is not None:
                 progress(k + 1, len(self._points))
+        heat, creep = np.zeros((2, len(self._points), len(self._robot.tendons)))
+        heat[:, index], creep[:, index] = heats, creeps
         return Driven(
-            tuple(shapes), tuple(states), tuple(failed), tuple(steps), heats, creeps, tube_heats, held
+            tuple(shapes), tuple(states), tuple(failed), tuple(steps), heat, creep, tube_heats, held
         )
 
     def _rest(self) -> DriveState:
@@ -107,7 +115,7 @@ class _Driver:
         return DriveState(
             tuple(t.name for t in robot.tendons),
             tuple(t.name for t in robot.tubes),
-            tuple(self._at_rest(j) for j in range(len(robot.tendons))),
+            GivenProfiles(tuple(self._at_rest(j) for j in range(len(robot.tendons)))),
             None,
             self._points[0].at_zero(),
         )
@@ -138,11 +146,11 @@ class _Driver:
         self,
         point: Actuators,
         state: DriveState,
-        heats: np.ndarray,
-        creeps: np.ndarray,
+        heats: list[float],
+        creeps: list[float],
         tube_heats: np.ndarray,
     ) -> tuple[DriveState, int]:
-        """The state at a point, and in how many steps it was reached; 0: not."""
+        """The state at a point, and in how many steps it was reached; 0: not. heats, creeps: by channel."""
         before = state.given
         if before is None or self._near is None:
             settled = self._settle(point, state, cold=True)
@@ -150,7 +158,6 @@ class _Driver:
                 return state, 0
             return self._taken(settled, point, state), 1
         done, step, count = 0.0, 1.0, 0
-        index = [c.index for c in self._equilibrium.channels]
         while done < 1.0:
             to = min(1.0, done + step)
             ahead = before.towards(point, to)
@@ -167,10 +174,11 @@ class _Driver:
                 if settled is None:
                     self._near = None
                     return state, 0
-            if index:
+            if self._equilibrium.channels:
                 lost, crept = _core.friction_heat(self._equilibrium.rows, near.found, settled.found)
-                heats[index] += lost
-                creeps[index] = np.maximum(creeps[index], crept)
+                for c, (loss, slip) in enumerate(zip(lost.tolist(), crept.tolist(), strict=True)):
+                    heats[c] += loss
+                    creeps[c] = max(creeps[c], slip)
             if settled.tubes is not None:
                 tube_heats += settled.tubes.heat_from(state.rubbing, state.tubes)
             state = self._taken(settled, ahead, state)
@@ -182,10 +190,8 @@ class _Driver:
     def _taken(self, settled: Settled, given: Actuators, state: DriveState) -> DriveState:
         passed = given.through(self._plays, state.passed)
         self._before, self._near = self._near, settled
-        profiles: list[Profile | None] = [None] * len(self._robot.tendons)
-        for c, profile in zip(self._equilibrium.channels, settled.profiles, strict=True):
-            profiles[c.index] = profile
-        return DriveState(state.tendons, state.tubes, tuple(profiles), given, passed, settled.tubes)
+        along = self._equilibrium.profiles(settled)
+        return DriveState(state.tendons, state.tubes, along, given, passed, settled.tubes)
 
     def _settle(
         self, given: Actuators, state: DriveState, *, cold: bool, halves: bool = False
@@ -193,9 +199,8 @@ class _Driver:
         """halves: a step that misses too much of its history need not be found, a shorter one follows."""
         passed = given.through(self._plays, state.passed)
         arrays = passed.tension, passed.rotation, passed.translation
-        old = [None if (p := state.profiles[c.index]) is None else p.log for c in self._equilibrium.channels]
         pulls = None
-        if not np.isnan(passed.displacement).all():
+        if self._any_pulled:
             prepared = self._prepared
             pulls = pulls_from(
                 prepared._rest, arrays, passed.displacement, prepared._compliance, prepared.tolerance
@@ -207,12 +212,12 @@ class _Driver:
             if not plain.converged:
                 return None
             return self._equilibrium.settle(
-                old, arrays, pulls, None, plain._solution, stay=False, tubes=state.rubbing
+                state.along, arrays, pulls, None, plain._solution, stay=False, tubes=state.rubbing
             )
         near = self._near
         assert near is not None
         return self._equilibrium.settle(
-            old,
+            state.along,
             arrays,
             pulls,
             near,
@@ -225,10 +230,7 @@ class _Driver:
 
     def _is_fine(self, a: Settled, b: Settled) -> bool:
         """Whether the way from a to b is short enough for one step, and b as stable as a."""
-        if self._turn(a, b) > LONGEST_TURN or (not self._stable(b) and self._stable(a)):
-            return False
-        missed = _core.friction_history_missed(self._equilibrium.rows, a.found, b.found)
-        return missed <= MOST_MISSED
+        return self._turn(a, b) <= LONGEST_TURN and (self._stable(b) or not self._stable(a))
 
     @staticmethod
     def _stable(settled: Settled) -> bool:
@@ -246,24 +248,11 @@ class _Driver:
         prepared, near = self._prepared, self._near
         if not good or near is None:
             return plain_shape(prepared, point.through(self._plays, state.passed))
-        passed = state.passed
-        names = [t.name for t in self._robot.tendons]
-        pulled = ~np.isnan(passed.displacement)
-        plain = {
-            t.name: float(f)
-            for t, f, held in zip(self._robot.tendons, passed.tension, pulled, strict=True)
-            if not held and not isinstance(t.tension, TensionProfile)
-        }
-        actuation = {"tension": plain, "rotation": passed.rotation, "translation": passed.translation}
-        if pulled.any():
-            actuation["displacement"] = {
-                n: float(d) for n, d, held in zip(names, passed.displacement, pulled, strict=True) if held
-            }
         return Shape(
             near.core,
             near.solution,
             base=self._robot,
-            actuation=actuation,
+            actuation=self._actuation(state.passed),
             tolerance=prepared.tolerance,
             residual_tolerance=prepared.residual_tolerance,
             stations=prepared._given_stations,
@@ -272,6 +261,19 @@ class _Driver:
             rest=lambda: prepared._rest,
             driven=True,
         )
+
+    def _actuation(self, passed: Actuators) -> dict[str, Any]:
+        """As ``Robot.with_actuation`` takes it."""
+        actuation: dict[str, Any] = {"rotation": passed.rotation, "translation": passed.translation}
+        if self._all_by_tension:
+            return actuation | {"tension": passed.tension}
+        tension, displacement = {}, {}
+        for k, tendon in enumerate(self._robot.tendons):
+            if self._pulled[k]:
+                displacement[tendon.name] = float(passed.displacement[k])
+            elif not isinstance(tendon.tension, TensionProfile):
+                tension[tendon.name] = float(passed.tension[k])
+        return actuation | {"tension": tension, "displacement": displacement}
 
     @staticmethod
     def _why(shape: Shape) -> str:

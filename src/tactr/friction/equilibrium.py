@@ -8,7 +8,6 @@ shape of a round is found together with their friction torques.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +15,7 @@ import numpy as np
 
 from tactr import _core
 from tactr.friction.channel import channels
-from tactr.friction.profile import Curve, Profile
+from tactr.friction.profiles import FoundProfiles, Profiles
 from tactr.friction.tube_state import TubeFrictionState
 from tactr.friction.tube_step import TubeFrictionStep
 from tactr.robot import Robot
@@ -47,22 +46,15 @@ class Settled:
     tubes: TubeFrictionState | None = None
     held: int = 0
 
-    @cached_property
+    @property
     def core(self) -> _core.PreparedRobot:
         """The robot with its profiles."""
         return self.found.robot
 
-    @cached_property
+    @property
     def solution(self) -> _core.Solution:
         """Its shape."""
         return self.found.solution
-
-    @cached_property
-    def profiles(self) -> tuple[Profile | None, ...]:
-        """By channel, None where slack."""
-        return tuple(
-            None if p is None else Profile(Curve(p[0], p[1]), p[2], p[3]) for p in self.found.profiles
-        )
 
 
 class Equilibrium:
@@ -72,14 +64,18 @@ class Equilibrium:
         robot = prepared.robot
         self._prepared = prepared
         self.channels = channels(robot)
+        self._index = tuple(c.index for c in self.channels)
         self.rows = _core.FrictionChannels([c.row for c in self.channels])
-        self._still = _without_rates(robot)
         self.tube_step = TubeFrictionStep(robot, prepared.tolerance, prepared.residual_tolerance)
         self._tubes_rub = self.tube_step.rubs
 
+    @cached_property
+    def _still(self) -> _core.PreparedRobot:
+        return _without_rates(self._prepared.robot)
+
     def settle(
         self,
-        old: Sequence[Curve | None],
+        old: Profiles,
         arrays: Arrays,
         pulls: Pulls | None,
         near: Settled | None,
@@ -90,15 +86,13 @@ class Equilibrium:
         most_missed: float | None = None,
         tubes: TubeFrictionState | None = None,
     ) -> Settled | None:
-        """From profiles before, log tension by channel, and where tubes rubbed, at tension,
-        rotation, translation (arrays) and displacements, near what was found before, or from a shape without
-        friction. before: what was found before that. most_missed: of log tension, of what smaller steps would
-        have seen since near. None: not found, or more was missed; pulled by displacements or with rubbing
-        tubes, that is left to the caller."""
+        """From profiles before, and where tubes rubbed, at tension, rotation, translation (arrays) and
+        displacements, near what was found before, or from a shape without friction. before: what was found
+        before that. most_missed: of log tension, of what smaller steps would have seen since near. None: not
+        found, or more was missed."""
         prepared = self._prepared
-        curves = [None if curve is None else (curve.edges, curve.coefficients) for curve in old]
         rounds = _core.FrictionRounds(
-            prepared._core, self.rows, curves, arrays[2], prepared.residual_tolerance
+            prepared._core, self.rows, old.rows(self._index), arrays[2], prepared.residual_tolerance
         )
         if near is None:
             rounds.start_plain(solution)
@@ -111,7 +105,15 @@ class Equilibrium:
             limit = (None, 0.0) if near is None or most_missed is None else (near.found, most_missed)
             found = rounds.run(*arrays, *tolerances, solution, stay, *limit)
             return None if found is None else Settled(found, arrays)
-        return _Rounds(self, rounds, arrays, pulls, stay, tubes).run(solution)
+        settled = _Rounds(self, rounds, arrays, pulls, stay, tubes).run(solution)
+        if settled is None or near is None or most_missed is None:
+            return settled
+        missed = _core.friction_history_missed(self.rows, near.found, settled.found)
+        return settled if missed <= most_missed else None
+
+    def profiles(self, settled: Settled) -> FoundProfiles:
+        """What an equilibrium leaves behind."""
+        return FoundProfiles(settled.found, self._index, len(self._prepared.robot.tendons))
 
 
 class _Rounds:
@@ -197,10 +199,14 @@ class _Rounds:
 
 def _ahead(before: Arrays, near: Arrays, arrays: Arrays) -> float:
     """How far the next step goes on like the last, in its lengths; 0 where it does not."""
-    last = np.concatenate(near) - np.concatenate(before)
-    step = np.concatenate(arrays) - np.concatenate(near)
-    square, along = float(last @ last), float(last @ step)
-    goes_on = along > 0.0 and along * along > 0.999 * square * float(step @ step) and along < 2.0 * square
+    square = along = ahead = 0.0
+    for old, now, new in zip(before, near, arrays, strict=True):
+        for a, b, c in zip(old.tolist(), now.tolist(), new.tolist(), strict=True):  # too few for numpy to pay
+            last, step = b - a, c - b
+            square += last * last
+            along += last * step
+            ahead += step * step
+    goes_on = along > 0.0 and along * along > 0.999 * square * ahead and along < 2.0 * square
     return along / square if goes_on else 0.0
 
 

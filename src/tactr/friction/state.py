@@ -11,6 +11,7 @@ import numpy as np
 from tactr.errors import RobotError
 from tactr.friction.actuators import Actuators
 from tactr.friction.profile import ORDER, Curve, Profile
+from tactr.friction.profiles import GivenProfiles, Profiles
 from tactr.friction.tube_state import TubeFrictionState
 from tactr.robot import Robot
 
@@ -19,17 +20,22 @@ from tactr.robot import Robot
 class DriveState:
     """Tensions along the tendons, torques between tubes, and where backlash has left the actuators.
 
-    names of tendons and tubes in the robot's order; profiles: by tendon, None where it has no tension or no
-    friction; given: what the actuators were given last, None at rest; passed: what their plays pass on;
-    rubbing: torques and angles where tubes rub, None without or at rest.
+    names of tendons and tubes in the robot's order; along: tensions along the tendons, see ``profiles``;
+    given: what the actuators were given last, None at rest; passed: what their plays pass on; rubbing:
+    torques and angles where tubes rub, None without or at rest.
     """
 
     tendons: tuple[str, ...]
     tubes: tuple[str, ...]
-    profiles: tuple[Profile | None, ...]
+    along: Profiles
     given: Actuators | None
     passed: Actuators
     rubbing: TubeFrictionState | None = None
+
+    @property
+    def profiles(self) -> tuple[Profile | None, ...]:
+        """Tension along every tendon, by tendon, None where it has no tension or no friction."""
+        return self.along.by_tendon
 
     def tension(self, tendon: str, sigma: float | Sequence[float] | np.ndarray) -> np.ndarray:
         """Tension along a tendon with friction at sigma (n,), m; 0 where it is slack. N."""
@@ -74,7 +80,7 @@ class DriveState:
             return DriveState(
                 tuple(data["tendons"]),
                 tuple(data["tubes"]),
-                tuple(None if p is None else _profile(p) for p in data["profiles"]),
+                GivenProfiles(tuple(None if p is None else _profile(p) for p in data["profiles"])),
                 None if data["given"] is None else Actuators.from_dict(data["given"]),
                 Actuators.from_dict(data["passed"]),
                 None if data["rubbing"] is None else TubeFrictionState.from_dict(data["rubbing"]),

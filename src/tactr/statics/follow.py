@@ -11,8 +11,8 @@ import numpy as np
 from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
-from tactr.statics.actuation import displacements, rotations, tensions, translations
-from tactr.statics.path import Path, path_points
+from tactr.statics.actuation import without_nothing
+from tactr.statics.path import Path, PathPoints, path_points
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared, _Actuated
 from tactr.statics.stability import is_stable_at_tensions
@@ -87,19 +87,18 @@ def follow(
             "snap_tolerance", f"{snap_tolerance!r}", f"a number in (0, {FIRST_STEP}]", value=snap_tolerance
         )
     points = path_points(robot, path)
-    prepared = Prepared(points[0], tolerance=tolerance, stations=stations)
+    prepared = Prepared(points.first, tolerance=tolerance, stations=stations)
     return _Follower(prepared, points, float(snap_tolerance)).run(start)
 
 
 class _Follower:
     """The walk: arrays of actuation, a row for every point."""
 
-    def __init__(self, prepared: Prepared, points: list[Robot], least_step: float) -> None:
+    def __init__(self, prepared: Prepared, points: PathPoints, least_step: float) -> None:
         self._prepared = prepared
-        self._base = points[0]
-        self._rows = [np.array([read(p) for p in points]) for read in (tensions, rotations, translations)]
-        pulls = [displacements(p) for p in points]
-        self._pulls = None if pulls[0] is None else np.array(pulls)
+        self._base = points.first
+        self._rows = points.tension, points.rotation, points.translation
+        self._pulls = without_nothing(points.displacement)
         self._count = len(points)
         self._least_step = least_step
         self._step = FIRST_STEP
