@@ -56,8 +56,15 @@ Channels channels_of(const nb::list& rows) {
     return out;
 }
 
-/// None: no tension, or (edges, Chebyshev coefficients) of log tension.
-std::vector<std::optional<tactr::Curve>> curves_of(const nb::list& old) {
+/// Of an equilibrium; or a list: None: no tension, or (edges, Chebyshev coefficients) of log tension.
+std::vector<std::optional<tactr::Curve>> curves_of(const nb::object& given) {
+    if (nb::isinstance<tactr::FrictionSettled>(given)) {
+        std::vector<std::optional<tactr::Curve>> out;
+        for (const auto& profile : nb::cast<const tactr::FrictionSettled&>(given).profiles)
+            out.push_back(profile ? std::optional<tactr::Curve>(profile->log) : std::nullopt);
+        return out;
+    }
+    const nb::list old = nb::cast<nb::list>(given);
     std::vector<std::optional<tactr::Curve>> out(nb::len(old));
     for (size_t c = 0; c < out.size(); ++c) {
         if (old[c].is_none()) continue;
@@ -134,19 +141,23 @@ void bind_friction(nb::module_& m) {
 
     nb::class_<FrictionRounds>(m, "FrictionRounds", "Rounds of profiles, shape and wraps.")
         .def("__init__",
-             [](FrictionRounds* self, const PreparedRobot& plain, const Channels& channels, const nb::list& old, const Vector& translation,
+             [](FrictionRounds* self, const PreparedRobot& plain, const Channels& channels, const nb::object& given, const Vector& translation,
                 double precision) {
-                 if (nb::len(old) != channels.list.size()) throw std::invalid_argument("one old profile for each channel");
+                 auto old = curves_of(given);
+                 if (old.size() != channels.list.size()) throw std::invalid_argument("one old profile for each channel");
                  for (const FrictionChannel& channel : channels.list)
                      if (channel.tendon >= static_cast<int>(plain.tendons.size()) || channel.tube >= static_cast<int>(plain.tubes.size()))
                          throw std::invalid_argument("a channel of another robot");
-                 new (self) FrictionRounds(plain, channels.list, curves_of(old), doubles_of(translation, plain.tubes.size(), "translation"), precision);
+                 new (self) FrictionRounds(plain, channels.list, std::move(old), doubles_of(translation, plain.tubes.size(), "translation"), precision);
              },
              "plain"_a, "channels"_a, "old"_a, "translation"_a, "precision"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("start_plain", [](FrictionRounds& r, const Solution& s) { if (!r.start(s)) throw std::runtime_error("the solution cannot be sampled"); },
              "solution"_a)
-        .def("start_near", [](FrictionRounds& r, const FrictionSettled& near, const FrictionSettled* before, double ahead) { r.start(near, before, ahead); },
-             "near"_a, "before"_a.none(), "ahead"_a)
+        .def("start_near", [](FrictionRounds& r, const FrictionSettled& near, const std::vector<std::pair<const FrictionSettled*, double>>& past) {
+                 std::vector<FrictionPast> from;
+                 for (const auto& [settled, place] : past) from.push_back({settled, place});
+                 r.start(near, from);
+             }, "near"_a, "past"_a, "Carried on to place 1 from 0, that of near, and places before it, the latest first.")
         .def("profile", [](FrictionRounds& r, const Vector& tension) {
                  r.profile(doubles_of(tension, r.robot.tendons.size(), "tension"));
                  return r.robot;

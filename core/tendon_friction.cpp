@@ -91,16 +91,31 @@ bool FrictionRounds::start(const Solution& solution) {
     return channels_.empty() || read(plain_, solution, wraps_);
 }
 
-void FrictionRounds::start(const FrictionSettled& near, const FrictionSettled* before, double ahead) {
+void FrictionRounds::start(const FrictionSettled& near, const std::vector<FrictionPast>& past) {
     wraps_ = near.wraps;
-    std::vector<double> now, then;
+    std::vector<double> now;
     numbers_of(wraps_, now);
     for (const RoundsPair& pair : near.pairs)
         if (pair.missed.size() == now.size() && static_cast<int>(pairs_.size()) < MOST_PAIRS) pairs_.push_back(pair);
-    if (!before || ahead == 0.0) return;
-    numbers_of(before->wraps, then);
-    std::vector<double> step = difference(now, then);
-    for (double& x : step) x *= ahead;
+    if (past.empty()) return;
+    // Newton's divided differences of the places 0, past...
+    std::vector<double> places{0.0};
+    std::vector<std::vector<double>> slopes{std::move(now)};
+    for (const FrictionPast& from : past) {
+        slopes.emplace_back();
+        numbers_of(from.settled->wraps, slopes.back());
+        places.push_back(from.place);
+    }
+    for (size_t order = 1; order < slopes.size(); ++order)
+        for (size_t k = slopes.size(); k-- > order;)
+            for (size_t i = 0; i < slopes[k].size(); ++i)
+                slopes[k][i] = (slopes[k][i] - slopes[k - 1][i]) / (places[k] - places[k - order]);
+    std::vector<double> step(slopes[0].size(), 0.0);
+    double product = 1.0;
+    for (size_t order = 1; order < slopes.size(); ++order) {
+        product *= 1.0 - places[order - 1];
+        for (size_t i = 0; i < step.size(); ++i) step[i] += product * slopes[order][i];
+    }
     add(step, wraps_);
 }
 

@@ -14,6 +14,12 @@ struct HistoryLimit {
     double most = 0.0;                      // of log tension
 };
 
+/// An equilibrium further back on a way, at a place below 0; the latest first.
+struct FrictionPast {
+    const FrictionSettled* settled;
+    double place;
+};
+
 /// A round: profiles from the wraps by the friction step, the shape at these profiles, the wraps in that shape. The map from
 /// wraps to wraps contracts by about the friction angle; Anderson's mixing (1965) of the last rounds, those of the step
 /// before among them, makes it converge in a few. Wraps are mixed as numbers: rises at points and jumps at joints.
@@ -33,8 +39,8 @@ class FrictionRounds {
     /// From the wraps in a shape without friction. False: it cannot be sampled.
     bool start(const Solution& solution);
 
-    /// From those of the equilibrium before, carried on by so much of the way from the one before that; 0: as they are.
-    void start(const FrictionSettled& near, const FrictionSettled* before, double ahead);
+    /// From those of the equilibrium before, carried on to place 1 of a way on which it is at 0 and others were before.
+    void start(const FrictionSettled& near, const std::vector<FrictionPast>& past);
 
     /// Profiles at tensions at the base (tendons,).
     void profile(const std::vector<double>& tension);

@@ -147,18 +147,18 @@ class FrictionRounds:
         self,
         plain: PreparedRobot,
         channels: FrictionChannels,
-        old: list,
+        old: FrictionSettled | list,
         translation: np.ndarray,
         precision: float,
     ) -> None:
-        """old: edges and Chebyshev coefficients of log tension before, and anything after them, None without
+        """old: of an equilibrium, or edges and Chebyshev coefficients of log tension before, and anything after them, None without
         tension; by channel. precision: rad, to which shapes are found."""
 
     def start_plain(self, solution: Solution) -> None:
         """From the wraps in a shape without friction."""
 
-    def start_near(self, near: FrictionSettled, before: FrictionSettled | None, ahead: float) -> None:
-        """From those of an equilibrium near by, carried on by so much of the way from one before that."""
+    def start_near(self, near: FrictionSettled, past: list[tuple[FrictionSettled, float]]) -> None:
+        """Carried on to place 1 of a way from 0, that of near, and places before it, the latest first."""
 
     def profile(self, tension: np.ndarray) -> PreparedRobot:
         """The robot with profiles at these tensions at the base."""

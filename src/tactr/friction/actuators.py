@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import dist
 
 import numpy as np
 
@@ -51,6 +52,15 @@ class Actuators:
     def at_zero(self) -> Actuators:
         """Nothing given, by the same kinds of actuation."""
         return Actuators(*(0.0 * values for values in self._all()))
+
+    @cached_property
+    def flat(self) -> list[float]:
+        """All numbers; 0 where there is none."""
+        return np.nan_to_num(np.concatenate(self._all())).tolist()
+
+    def distance(self, other: Actuators) -> float:
+        """Of all numbers as they are, whatever their units: to compare ways of one kind."""
+        return dist(self.flat, other.flat)
 
     def to_dict(self) -> dict[str, list[float]]:
         """Plain lists."""

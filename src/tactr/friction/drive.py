@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import ceil, inf, sqrt
 from time import perf_counter
 from typing import Any
 
@@ -29,6 +30,7 @@ from tactr.statics.stability import is_stable_at_tensions, stability_of
 LONGEST_TURN = 0.3  # rad at the free end, in one step
 MOST_MISSED = 1e-4  # of log tension, of what smaller steps would have seen
 SHORTEST_STEP = 1.0 / 32  # of the way between two points
+CAREFUL = 0.9  # of the longest step
 
 
 def drive(
@@ -83,7 +85,8 @@ class _Driver:
         self._all_by_tension = not (profiled or self._any_pulled)
         self._equilibrium = Equilibrium(prepared)
         self._near: Settled | None = None
-        self._before: Settled | None = None  # what was found before that
+        self._past: tuple[Settled, ...] = ()  # what was found before that, the latest first
+        self._stride = inf  # how far a step may be expected to get
 
     def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
         shapes, states, failed, steps = [], [], [], []
@@ -131,7 +134,7 @@ class _Driver:
                 "a path that pulls every tendon as before",
                 value=state,
             )
-        settled = self._settle(state.given, state, cold=True)
+        settled, _ = self._settle(state.given, state, cold=True)
         if settled is not None:
             self._taken(settled, state.given, state)
 
@@ -153,24 +156,26 @@ class _Driver:
         """The state at a point, and in how many steps it was reached; 0: not. heats, creeps: by channel."""
         before = state.given
         if before is None or self._near is None:
-            settled = self._settle(point, state, cold=True)
+            settled, _ = self._settle(point, state, cold=True)
             if settled is None:
                 return state, 0
             return self._taken(settled, point, state), 1
-        done, step, count = 0.0, 1.0, 0
+        way = before.distance(point)
+        done, count, step = 0.0, 0, self._stride / way if self._stride < way else 1.0
         while done < 1.0:
-            to = min(1.0, done + step)
-            ahead = before.towards(point, to)
-            near, snaps = self._near, False
+            parts = ceil((1.0 - done) / max(step, SHORTEST_STEP) - 0.2)
+            to = 1.0 if parts <= 1 else done + (1.0 - done) / parts
+            step, ahead = to - done, before.towards(point, to)
+            near, halves, snaps = self._near, to - done > SHORTEST_STEP, False
             assert near is not None
-            settled = self._settle(ahead, state, cold=False, halves=step > SHORTEST_STEP)
-            if settled is not None and step > SHORTEST_STEP and not self._is_fine(near, settled):
-                settled = None
+            settled, missed = self._settle(ahead, state, cold=False, halves=halves)
+            if settled is not None and halves and not self._is_fine(near, settled):
+                settled, missed = None, 0.0
             if settled is None:
-                if step > SHORTEST_STEP:
-                    step *= 0.5
+                if halves:
+                    step *= min(0.5, max(0.1, _of_step(missed)))
                     continue
-                settled, snaps = self._settle(ahead, state, cold=True), True  # the branch is lost
+                settled, snaps = self._settle(ahead, state, cold=True)[0], True  # the branch is lost
                 if settled is None:
                     self._near = None
                     return state, 0
@@ -183,46 +188,47 @@ class _Driver:
                 tube_heats += settled.tubes.heat_from(state.rubbing, state.tubes)
             state = self._taken(settled, ahead, state)
             if snaps:
-                self._before = None
-            done, count, step = to, count + 1, min(2.0 * step, 1.0)
+                self._past = ()
+            done, count, step = to, count + 1, step * min(4.0, _of_step(missed))
+        self._stride = step * way
         return state, count
 
     def _taken(self, settled: Settled, given: Actuators, state: DriveState) -> DriveState:
         passed = given.through(self._plays, state.passed)
-        self._before, self._near = self._near, settled
+        self._past = () if self._near is None else (self._near, *self._past[:1])
+        self._near = settled
         along = self._equilibrium.profiles(settled)
         return DriveState(state.tendons, state.tubes, along, given, passed, settled.tubes)
 
     def _settle(
         self, given: Actuators, state: DriveState, *, cold: bool, halves: bool = False
-    ) -> Settled | None:
-        """halves: a step that misses too much of its history need not be found, a shorter one follows."""
+    ) -> tuple[Settled | None, float]:
+        """As ``Equilibrium.settle``; halves: a step that misses too much of its history need not be found, a shorter one follows."""
         passed = given.through(self._plays, state.passed)
-        arrays = passed.tension, passed.rotation, passed.translation
         pulls = None
         if self._any_pulled:
-            prepared = self._prepared
+            prepared, arrays = self._prepared, (passed.tension, passed.rotation, passed.translation)
             pulls = pulls_from(
                 prepared._rest, arrays, passed.displacement, prepared._compliance, prepared.tolerance
             )
             if isinstance(pulls, Pulled):
-                return None
+                return None, 0.0
         if cold:
             plain = plain_shape(self._prepared, passed)
             if not plain.converged:
-                return None
+                return None, 0.0
             return self._equilibrium.settle(
-                state.along, arrays, pulls, None, plain._solution, stay=False, tubes=state.rubbing
+                state.along, passed, pulls, None, plain._solution, stay=False, tubes=state.rubbing
             )
         near = self._near
         assert near is not None
         return self._equilibrium.settle(
             state.along,
-            arrays,
+            passed,
             pulls,
             near,
             near.solution,
-            before=self._before,
+            past=self._past,
             stay=True,
             most_missed=MOST_MISSED if halves else None,
             tubes=state.rubbing,
@@ -280,3 +286,8 @@ class _Driver:
         if shape.converged:
             return "shape and friction did not settle together; the shape given is that without friction"
         return shape.message
+
+
+def _of_step(missed: float) -> float:
+    """How much longer a step may be than one that missed so much of its history; inf where that is not known."""
+    return CAREFUL * sqrt(MOST_MISSED / missed) if missed > 0.0 else inf

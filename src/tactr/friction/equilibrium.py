@@ -8,12 +8,14 @@ shape of a round is found together with their friction torques.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from tactr import _core
+from tactr.friction.actuators import Actuators
 from tactr.friction.channel import channels
 from tactr.friction.profiles import FoundProfiles, Profiles
 from tactr.friction.tube_state import TubeFrictionState
@@ -28,20 +30,18 @@ from tactr.statics.solve import Prepared
 MOST_ROUNDS = 30
 AIM_SHARE = 0.1  # of what may be missing in a displacement
 
-Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
-
 
 @dataclass(frozen=True, eq=False)
 class Settled:
     """One equilibrium with friction.
 
-    found: the kernel's, which holds the robot with its profiles and the torques between tubes; arrays:
-    tension, rotation, translation; pulled: of the tendons pulled by displacements, if there are any; tubes:
+    found: the kernel's, which holds the robot with its profiles and the torques between tubes; passed: what
+    the actuators' plays passed on; pulled: of the tendons pulled by displacements, if there are any; tubes:
     where they rub, None without; held: in how many directions of falling energy they hold the robot.
     """
 
     found: _core.FrictionSettled
-    arrays: Arrays
+    passed: Actuators
     pulled: Pulled | None = None
     tubes: TubeFrictionState | None = None
     held: int = 0
@@ -76,40 +76,39 @@ class Equilibrium:
     def settle(
         self,
         old: Profiles,
-        arrays: Arrays,
+        passed: Actuators,
         pulls: Pulls | None,
         near: Settled | None,
         solution: _core.Solution,
         *,
-        before: Settled | None = None,
+        past: Sequence[Settled] = (),
         stay: bool,
         most_missed: float | None = None,
         tubes: TubeFrictionState | None = None,
-    ) -> Settled | None:
-        """From profiles before, and where tubes rubbed, at tension, rotation, translation (arrays) and
-        displacements, near what was found before, or from a shape without friction. before: what was found
-        before that. most_missed: of log tension, of what smaller steps would have seen since near. None: not
-        found, or more was missed."""
+    ) -> tuple[Settled | None, float]:
+        """From profiles before, and where tubes rubbed, at what the plays pass on, near what was found before, or from a shape without friction. past: what was found
+        before that, the latest first. most_missed: of log tension, of what smaller steps would have seen since
+        near; that is the second of what is returned, 0 where it was not looked at. None: not found, or more
+        was missed."""
         prepared = self._prepared
+        arrays = passed.tension, passed.rotation, passed.translation
         rounds = _core.FrictionRounds(
             prepared._core, self.rows, old.rows(self._index), arrays[2], prepared.residual_tolerance
         )
         if near is None:
             rounds.start_plain(solution)
-        elif before is None:
-            rounds.start_near(near.found, None, 0.0)
         else:
-            rounds.start_near(near.found, before.found, _ahead(before.arrays, near.arrays, arrays))
+            rounds.start_near(near.found, _places(past, near, passed))
         if pulls is None and not self._tubes_rub:
             tolerances = prepared.tolerance, prepared.residual_tolerance
             limit = (None, 0.0) if near is None or most_missed is None else (near.found, most_missed)
             found = rounds.run(*arrays, *tolerances, solution, stay, *limit)
-            return None if found is None else Settled(found, arrays)
-        settled = _Rounds(self, rounds, arrays, pulls, stay, tubes).run(solution)
+            return None if found is None else Settled(found, passed), rounds.history_missed
+        settled = _Rounds(self, rounds, passed, pulls, stay, tubes).run(solution)
         if settled is None or near is None or most_missed is None:
-            return settled
+            return settled, 0.0
         missed = _core.friction_history_missed(self.rows, near.found, settled.found)
-        return settled if missed <= most_missed else None
+        return settled if missed <= most_missed else None, missed
 
     def profiles(self, settled: Settled) -> FoundProfiles:
         """What an equilibrium leaves behind."""
@@ -123,14 +122,15 @@ class _Rounds:
         self,
         owner: Equilibrium,
         rounds: _core.FrictionRounds,
-        arrays: Arrays,
+        passed: Actuators,
         pulls: Pulls | None,
         stay: bool,
         tubes: TubeFrictionState | None,
     ) -> None:
         self._owner, self._rounds, self._pulls, self._stay = owner, rounds, pulls, stay
         self._tubes_before, self._tubes, self._held = tubes, None, 0
-        self._tension, self._rotation, self._translation = arrays[0].copy(), arrays[1], arrays[2]
+        self._passed, self._tension = passed, passed.tension.copy()
+        self._rotation, self._translation = passed.rotation, passed.translation
 
     def run(self, solution: _core.Solution) -> Settled | None:
         rounds, pulls = self._rounds, self._pulls
@@ -144,9 +144,8 @@ class _Rounds:
             core, solution = shape
             pulled, step = self._pull(core, solution, count)
             if rounds.missed <= self._owner._prepared.residual_tolerance and step is None:
-                arrays = self._tension, self._rotation, self._translation
                 found = rounds.settled(core, solution)
-                return Settled(found, arrays, pulled, self._tubes, self._held)
+                return Settled(found, self._passed, pulled, self._tubes, self._held)
             tension = self._tension if step is None else step
             self._tension = rounds.mix(self._tension / scale, tension / scale) * scale
         return None
@@ -197,17 +196,26 @@ class _Rounds:
         return np.diag(pulls.compliance) - found[6 + pulls.index][:, columns]
 
 
-def _ahead(before: Arrays, near: Arrays, arrays: Arrays) -> float:
-    """How far the next step goes on like the last, in its lengths; 0 where it does not."""
-    square = along = ahead = 0.0
-    for old, now, new in zip(before, near, arrays, strict=True):
-        for a, b, c in zip(old.tolist(), now.tolist(), new.tolist(), strict=True):  # too few for numpy to pay
-            last, step = b - a, c - b
-            square += last * last
-            along += last * step
-            ahead += step * step
-    goes_on = along > 0.0 and along * along > 0.999 * square * ahead and along < 2.0 * square
-    return along / square if goes_on else 0.0
+def _places(
+    past: Sequence[Settled], near: Settled, to: Actuators
+) -> list[tuple[_core.FrictionSettled, float]]:
+    """Where those in the past are on the straight way from near, at 0, to what is passed on, at 1, as far back as
+    they lie on it; none where the last step was much shorter than this one."""
+    start = near.passed.flat
+    step = [b - a for a, b in zip(start, to.flat, strict=True)]
+    length = sum(x * x for x in step)
+    places: list[tuple[_core.FrictionSettled, float]] = []
+    for settled in past:
+        back = [b - a for a, b in zip(settled.passed.flat, start, strict=True)]
+        along, square = sum(x * y for x, y in zip(back, step, strict=True)), sum(x * x for x in back)
+        if (
+            along <= 0.0
+            or along * along <= 0.999 * square * length
+            or (not places and length >= 4.0 * square)
+        ):
+            break
+        places.append((settled.found, -along / length))
+    return places
 
 
 def _without_rates(robot: Robot) -> _core.PreparedRobot:

@@ -38,9 +38,9 @@ class FoundProfiles:
             profiles[j] = None if row is None else Profile(Curve(row[0], row[1]), row[2], row[3])
         return tuple(profiles)
 
-    def rows(self, index: tuple[int, ...]) -> list:
-        """As of ``GivenProfiles``, and what else the kernel gives of them."""
-        return self.found.profiles if index == self.index else GivenProfiles(self.by_tendon).rows(index)
+    def rows(self, index: tuple[int, ...]) -> list | _core.FrictionSettled:
+        """As of ``GivenProfiles``, or the equilibrium."""
+        return self.found if index == self.index else GivenProfiles(self.by_tendon).rows(index)
 
     def __reduce__(self) -> tuple[type[GivenProfiles], tuple[tuple[Profile | None, ...]]]:
         """What the kernel holds is not for files: a copy holds what it means."""
