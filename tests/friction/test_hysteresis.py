@@ -1,7 +1,10 @@
 """Loops of tensions and displacements: dead band, closure, memory, heat."""
 
+import copy
 import json
 import math
+import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -125,6 +128,33 @@ def test_a_state_is_all_there_is_to_remember():
     second = tactr.drive(robot, pulled(corners[3:]), state=kept)
     assert second.tips == pytest.approx(whole.tips[3:], abs=1e-8)
     assert tactr.drive(robot, pulled(corners[3:]), state=kept).tips == pytest.approx(second.tips, abs=1e-12)
+
+
+def test_copies_of_a_state_mean_the_same():
+    """A state keeps the kernel's profiles; what is copied or pickled is plain, and goes on alike."""
+    robot = bending(both=True)
+    state = tactr.drive(robot, {"tension": [[8.0, 1.0], [3.0, 1.0]]}).state
+    plain = DriveState.from_dict(state.to_dict())
+    copies = [pickle.loads(pickle.dumps(state)), copy.deepcopy(state), plain]
+    ahead = {"tension": [[5.0, 2.0]]}
+    tip = tactr.drive(robot, ahead, state=state).tips
+    for other in copies:
+        assert json.dumps(other.to_dict()) == json.dumps(state.to_dict())
+        assert tactr.drive(robot, ahead, state=other).tips.tolist() == tip.tolist()
+
+
+def test_a_state_goes_on_where_another_tendon_rubs():
+    """What the state says of the tendons that rub now counts: here that friction saw no tension."""
+    first, second = bending(both=True), bending(both=True)
+    first = first.replace(tendons=(first.tendons[0], replace(first.tendons[1], friction=0.0)))
+    second = second.replace(tendons=(replace(second.tendons[0], friction=0.0), second.tendons[1]))
+    state = tactr.drive(first, {"tension": [[8.0, 1.0], [3.0, 1.0]]}).state
+    assert state.profiles[0] is not None and state.profiles[1] is None
+    plain = DriveState.from_dict(state.to_dict())
+    tips = [tactr.drive(second, {"tension": [[5.0, 2.0]]}, state=s).tips.tolist() for s in (state, plain)]
+    assert tips[0] == tips[1]
+    alone = tactr.drive(second, {"tension": [[3.0, 0.0], [5.0, 2.0]]}).tips
+    assert tips[0][0] == pytest.approx(alone[1], abs=1e-8)
 
 
 def test_backlash_of_a_motor():

@@ -133,10 +133,12 @@ class Prepared:
         self._rotation = rotations(robot)
         self._translation = translations(robot)
         profiled = [isinstance(tendon.tension, TensionProfile) for tendon in robot.tendons]
-        self._least_tension = np.where(profiled, np.inf, 0.0)  # a profile is not replaced by a number unseen
+        # a profile is not replaced by a number unseen
+        self._least_tension = [math.inf if profile else 0.0 for profile in profiled]
+        self._least_rotation = [-math.inf] * len(robot.tubes)
         self._displacement = displacements(robot)
         self._compliance = np.array([tendon.compliance for tendon in robot.tendons], dtype=float)
-        self._least_translation = np.array([-innermost_place(robot, tube) for tube in robot.tubes])
+        self._least_translation = [-innermost_place(robot, tube) for tube in robot.tubes]
 
     @cached_property
     def _rest(self) -> RestState:
@@ -204,8 +206,8 @@ class Prepared:
     ) -> Prepared | _Actuated:
         """The actuation as arrays; where it replaces a tension profile, another Prepared there."""
         plain = (
-            self._is_plain(tension, self._tension, self._least_tension, np.inf)
-            and self._is_plain(rotation, self._rotation, -np.inf, np.inf)
+            self._is_plain(tension, self._tension, self._least_tension, math.inf)
+            and self._is_plain(rotation, self._rotation, self._least_rotation, math.inf)
             and self._is_plain(translation, self._translation, self._least_translation, 0.0)
             and self._is_plain_displacement(displacement, tension)
         )
@@ -295,17 +297,18 @@ class Prepared:
             return False
         pulled = ~np.isnan(given)
         fresh = tension if isinstance(tension, np.ndarray) else 0.0 * own
-        fits = np.isfinite(given) & (fresh == 0.0) & (self._least_tension == 0.0)
+        fits = np.isfinite(given) & (fresh == 0.0) & np.isfinite(self._least_tension)
         return bool(fits[pulled].all())
 
     @staticmethod
-    def _is_plain(given: object, own: np.ndarray, above: float | np.ndarray, most: float) -> bool:
+    def _is_plain(given: object, own: np.ndarray, least: list[float], most: float) -> bool:
         """Whether an actuation is absent, or an array that needs no closer look: floats, all in bounds."""
         if given is None:
             return True
         if not (isinstance(given, np.ndarray) and given.dtype == np.float64 and given.shape == own.shape):
             return False
-        return bool(((given >= above) & (given <= most) & np.isfinite(given)).all())
+        values = given.tolist()  # too few for numpy to pay
+        return all(math.isfinite(x) and low <= x <= most for x, low in zip(values, least, strict=True))
 
 
 def residual_tolerance_of(robot: Robot, tolerance: float) -> float:
