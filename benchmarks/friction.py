@@ -4,8 +4,8 @@
 
 For every robot and path: time per point of ``tactr.drive`` (state in, state out, heat and stability of every
 step) and of ``Prepared.solve`` from the shape before without friction, along the same path; the least of the
-repeats, and the median, in CPU time, which does not count what else runs on the machine; and the median ratio of the
-two, measured in turn.
+repeats, and the median, in CPU time, which does not count what else runs on the machine; and the median
+ratio of the two, measured in turn.
 """
 
 from __future__ import annotations

@@ -151,8 +151,8 @@ class FrictionRounds:
         translation: np.ndarray,
         precision: float,
     ) -> None:
-        """old: of an equilibrium, or edges and Chebyshev coefficients of log tension before, and anything after them, None without
-        tension; by channel. precision: rad, to which shapes are found."""
+        """old: of an equilibrium, or edges and Chebyshev coefficients of log tension before, and anything
+        after them, None without tension; by channel. precision: rad, to which shapes are found."""
 
     def start_plain(self, solution: Solution) -> None:
         """From the wraps in a shape without friction."""

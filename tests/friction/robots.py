@@ -1,9 +1,11 @@
 """Robots with friction, and paths to drive them along."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
+import tactr
 from tactr import Annulus, Material, Robot, Straight, Tendon, Tube
 from tactr.robot.friction import FrictionLike
 
@@ -22,6 +24,17 @@ def bending(
     if both:
         tendons.append(Tendon("down", "tube", Straight(0, -1.2e-3), friction=friction, **fields))
     return Robot([tube], tendons, loads)
+
+
+def rubbing_tubes(friction: float, disks: int | None):
+    """Three tubes with a tendon each, in channels or over so many disks."""
+    robot = tactr.examples.load("three_tube_a")
+    tendons = []
+    for tendon in robot.tendons:
+        end = next(tube.length for tube in robot.tubes if tube.name == tendon.tube)
+        contacts = None if disks is None else np.linspace(0.0, end, disks + 1)[1:] * 0.999
+        tendons.append(replace(tendon, friction=friction, contacts=contacts))
+    return robot.replace(tendons=tuple(tendons))
 
 
 def legs(corners, cuts):

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import tactr
 from tactr import Annulus, DriveState, Material, Robot, Straight, Tendon, Tube
 
-from .robots import SOFT, bending, legs, pulled
+from .robots import SOFT, bending, legs, pulled, rubbing_tubes
 
 
 @pytest.mark.parametrize("actuation", ["tension", "displacement"])
@@ -60,6 +60,26 @@ def test_cuts_do_not_matter():
     tips = [tactr.drive(bending(), pulled(legs(corners, n))).tips[::n] for n in (1, 2, 7)]
     assert tips[0] == pytest.approx(tips[1], abs=1e-6)
     assert tips[2] == pytest.approx(tips[1], abs=1e-6)
+
+
+@pytest.mark.parametrize("disks", [None, 6])
+@pytest.mark.parametrize(("corners", "least"), [((0.0, 1.0), 1e-6), ((0.0, 1.0, 0.4), 1e-5)])
+def test_half_the_steps_of_several_tendons(disks, corners, least):
+    """Three tubes with a tendon each: from rest on one way, and back."""
+    robot = rubbing_tubes(0.2, disks)
+    tips = [
+        tactr.drive(robot, {"tension": legs(corners, n)[:, None] * [3.0, 2.0, 1.0]}).tips[-1]
+        for n in (4, 8, 16)
+    ]
+    assert tips[1] == pytest.approx(tips[0], abs=least)
+    assert tips[2] == pytest.approx(tips[1], abs=least)
+
+
+def test_short_ways_end():
+    """Steps that come out a little longer than the shortest are taken as they are."""
+    robot = rubbing_tubes(0.2, 5)
+    loop = np.array([0.0, 1 / 3, 2 / 3, 1.0, 0.8, 0.6, 0.4])[:, None]
+    assert tactr.drive(robot, {"tension": loop * [3.0, 2.25, 1.5]}).converged
 
 
 def test_a_loop_gives_off_its_area():

@@ -31,6 +31,7 @@ LONGEST_TURN = 0.3  # rad at the free end, in one step
 MOST_MISSED = 1e-4  # of log tension, of what smaller steps would have seen
 SHORTEST_STEP = 1.0 / 32  # of the way between two points
 CAREFUL = 0.9  # of the longest step
+STRETCH = 0.2  # of a step, by which those on a way may be longer to come out even
 
 
 def drive(
@@ -163,10 +164,10 @@ class _Driver:
         way = before.distance(point)
         done, count, step = 0.0, 0, self._stride / way if self._stride < way else 1.0
         while done < 1.0:
-            parts = ceil((1.0 - done) / max(step, SHORTEST_STEP) - 0.2)
+            parts = ceil((1.0 - done) / max(step, SHORTEST_STEP) - STRETCH)
             to = 1.0 if parts <= 1 else done + (1.0 - done) / parts
             step, ahead = to - done, before.towards(point, to)
-            near, halves, snaps = self._near, to - done > SHORTEST_STEP, False
+            near, halves, snaps = self._near, step > (1.0 + 2.0 * STRETCH) * SHORTEST_STEP, False
             assert near is not None
             settled, missed = self._settle(ahead, state, cold=False, halves=halves)
             if settled is not None and halves and not self._is_fine(near, settled):
@@ -203,7 +204,8 @@ class _Driver:
     def _settle(
         self, given: Actuators, state: DriveState, *, cold: bool, halves: bool = False
     ) -> tuple[Settled | None, float]:
-        """As ``Equilibrium.settle``; halves: a step that misses too much of its history need not be found, a shorter one follows."""
+        """As ``Equilibrium.settle``; halves: a step that misses too much of its history need not be found, a
+        shorter one follows."""
         passed = given.through(self._plays, state.passed)
         pulls = None
         if self._any_pulled:
@@ -289,5 +291,5 @@ class _Driver:
 
 
 def _of_step(missed: float) -> float:
-    """How much longer a step may be than one that missed so much of its history; inf where that is not known."""
+    """How much longer a step may be than one that missed so much of its history; inf: not known."""
     return CAREFUL * sqrt(MOST_MISSED / missed) if missed > 0.0 else inf

@@ -86,10 +86,10 @@ class Equilibrium:
         most_missed: float | None = None,
         tubes: TubeFrictionState | None = None,
     ) -> tuple[Settled | None, float]:
-        """From profiles before, and where tubes rubbed, at what the plays pass on, near what was found before, or from a shape without friction. past: what was found
-        before that, the latest first. most_missed: of log tension, of what smaller steps would have seen since
-        near; that is the second of what is returned, 0 where it was not looked at. None: not found, or more
-        was missed."""
+        """From profiles before, and where tubes rubbed, at what the plays pass on, near what was found
+        before, or from a shape without friction. past: what was found before that, the latest first.
+        most_missed: of log tension, of what smaller steps would have seen since near; that is the second of
+        what is returned, 0 where it was not looked at. None: not found, or more was missed."""
         prepared = self._prepared
         arrays = passed.tension, passed.rotation, passed.translation
         rounds = _core.FrictionRounds(
@@ -199,8 +199,8 @@ class _Rounds:
 def _places(
     past: Sequence[Settled], near: Settled, to: Actuators
 ) -> list[tuple[_core.FrictionSettled, float]]:
-    """Where those in the past are on the straight way from near, at 0, to what is passed on, at 1, as far back as
-    they lie on it; none where the last step was much shorter than this one."""
+    """Where those in the past are on the straight way from near, at 0, to what is passed on, at 1, as far
+    back as they lie on it; none where the last step was much shorter than this one."""
     start = near.passed.flat
     step = [b - a for a, b in zip(start, to.flat, strict=True)]
     length = sum(x * x for x in step)
