@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import tactr
-from tactr import PointLoad, Robot, RobotError, Rod, Straight, Tendon, TensionProfile, Tube
+from tactr import Annulus, Material, PointLoad, Robot, RobotError, Rod, Straight, Tendon, TensionProfile, Tube
 from tactr.materials import nitinol
 from tactr.statics import Prepared, Shape
 
@@ -174,3 +174,15 @@ def test_loads_replace_those_of_the_robot() -> None:
 
 def test_repr() -> None:
     assert repr(Prepared(rod())).startswith("<Prepared <Robot")
+
+
+def test_a_stepped_tube_is_not_moved_to_where_it_does_not_fit():
+    soft = Material(E=5e9, nu=0.3)
+    narrowing = [(0.0, Annulus(3e-3, 2.5e-3)), (0.1, Annulus(3e-3, 1.5e-3))]
+    stepped = [(0.0, Annulus(2e-3, 1e-3)), (0.1, Annulus(1.2e-3, 1e-3))]
+    outer = Tube("outer", length=0.2, section=narrowing, material=soft)
+    inner = Tube("inner", length=0.3, section=stepped, material=soft)
+    prepared = Prepared(Robot([outer, inner]))
+    assert prepared.solve(translation=np.array([0.0, -0.05])).converged
+    with pytest.raises(RobotError, match="does not fit into the bore"):
+        prepared.solve(translation=np.array([-0.05, 0.0]))
