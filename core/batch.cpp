@@ -38,16 +38,15 @@ void largest_strains(const RobotTables<double>& robot, const Solution& solution,
                 raise_strains(robot, t, stations[k] - solution.translation[t], samples.stations[k], worst + 6 * t);
 }
 
-constexpr int PACK = 4;                            // as wide as pack.hpp's
 constexpr int SINGLES = 64, DEVICE_CHUNK = 16384;  // configurations at once
 
 LanesUnit unit_of(const BatchRequest& request) {
     Lanes lanes = request.lanes;
     if (lanes == Lanes::widest) lanes = has_lanes(Lanes::avx2) ? Lanes::avx2 : Lanes::baseline;
 #ifdef TACTR_HAS_AVX2
-    if (lanes == Lanes::avx2) return {tactr_lanes_avx2, PACK, true, false};
+    if (lanes == Lanes::avx2) return {tactr_lanes_avx2, TACTR_LANES_SIDE_BY_SIDE, true, false};
 #endif
-    if (lanes == Lanes::baseline) return {tactr_lanes_baseline, PACK, true, false};
+    if (lanes == Lanes::baseline) return {tactr_lanes_baseline, TACTR_LANES_SIDE_BY_SIDE, true, false};
     if (lanes == Lanes::single) return {tactr_lanes_single, SINGLES, false, false};
     return {lanes == Lanes::device ? request.device : nullptr, DEVICE_CHUNK, false, true};
 }
