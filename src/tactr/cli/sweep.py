@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from tactr.cli.inputs import UsageError, read_length
-from tactr.cli.progress import bar_with_time_left
+from tactr.cli.progress import progress_bar
 from tactr.cli.solve import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def run_sweep(request: Request) -> int:
     counts: list[int] = []  # of configurations that are there: at first, and after each chunk
     options = {"threads": request.threads, "workers": request.workers, "cluster": request.cluster}
     try:
-        with bar_with_time_left("solving") as bar:
+        with progress_bar("solving") as bar:
 
             def show(done: int, count: int) -> None:
                 counts.append(done)
