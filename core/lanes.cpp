@@ -1,7 +1,4 @@
-// Compiled twice: for any processor, and, with another name for all that is in it, for those with AVX2.
-#ifdef TACTR_LANES_AVX2
-#define tactr tactr_avx2
-#endif
+// Compiled for every set of instructions, each time with another name for the namespace (CMakeLists.txt).
 #include "lane_solver.hpp"
 #include "lanes_door.hpp"
 #include "pack.hpp"
