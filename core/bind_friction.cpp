@@ -1,7 +1,6 @@
 // Python's door to friction of tendons.
 #include "bind_friction.hpp"
 
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bind_arrays.hpp"
 #include "tendon_friction.hpp"
 
 namespace nb = nanobind;
@@ -19,26 +19,12 @@ using namespace nb::literals;
 
 namespace {
 
-using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using tactr::array_of, tactr::doubles_of, tactr::Table, tactr::Vector;
 using PreparedRobot = tactr::RobotTables<double>;
 
 struct Channels {
     std::vector<tactr::FrictionChannel> list;
 };
-
-std::vector<double> doubles_of(const Vector& v) { return {v.data(), v.data() + v.shape(0)}; }
-
-std::vector<double> doubles_of(const Vector& v, size_t expected, const char* name) {
-    if (v.shape(0) != expected) throw std::invalid_argument(std::string(name) + " has the wrong length");
-    return doubles_of(v);
-}
-
-nb::object array_of(std::vector<double>&& data, std::initializer_list<size_t> shape) {
-    auto* owned = new std::vector<double>(std::move(data));
-    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, double>(owned->data(), shape, owner));
-}
 
 /// rows: (tendon, tube, end, pieces of friction, contacts or None, cuts), in the order of the tendons.
 Channels channels_of(const nb::list& rows) {

@@ -240,8 +240,9 @@ FrictionRounds::Glance FrictionRounds::glance(const Robot& view, const Actuation
     if (!rigid && !solved) return Glance::failed;
     Solution trial = rigid ? blank : near;
     if (!newton.take_over(near, trial) || (!rigid && !newton.step_by_derivatives(trial))) return Glance::failed;
-    if (newton.shooting.distance(near.free_end, trial.free_end) > NewtonSolver::CLOSE) return Glance::failed;
+    if (newton.shooting.distance(near.free_end, trial.free_end) > Stride::CLOSE) return Glance::failed;
     if (!WrapReader(channels_, joints_).read(newton, trial, after_)) return Glance::failed;
+    newton.note_edges(trial);
     trial.status = Status::converged;
     near = std::move(trial);
     ++rounds;
