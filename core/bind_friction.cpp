@@ -174,9 +174,9 @@ void bind_friction(nb::module_& m) {
         const size_t count = heat.size();
         return nb::make_tuple(array_of(std::move(heat), {count}), array_of(std::move(creep), {count}));
     }, "channels"_a, "before"_a, "after"_a, "By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m.");
-    m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
-        return FrictionHistory(channels.list, before).missed(after.wraps, after.solution.tension);
-    }, "channels"_a, "before"_a, "after"_a, "What one step misses of log tension that small ones would have seen.");
+    m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after, double enough) {
+        return FrictionHistory(channels.list, before).missed(after.wraps, after.solution.tension, enough);
+    }, "channels"_a, "before"_a, "after"_a, "enough"_a, "What one step misses of log tension that small ones would have seen.");
 }
 
 }  // namespace tactr

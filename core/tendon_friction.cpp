@@ -211,7 +211,7 @@ bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& set
         const Robot view = robot.view();
         const Glance seen = channels_.empty() ? Glance::failed : glance(view, actuation, settings, blank, solved, near);
         const auto too_long = [&] {  // for all that the wraps may still change
-            if (history && (rounds <= LOOKING || missed <= aim)) history_missed = history->missed(after_, tension);
+            if (history && (rounds <= LOOKING || missed <= aim)) history_missed = history->missed(after_, tension, limit.most);
             return history_missed > limit.most + 2.0 * missed;
         };
         if (seen != Glance::failed && too_long()) return false;

@@ -198,9 +198,9 @@ def friction_heat(
     """By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m."""
 
 def friction_history_missed(
-    channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled
+    channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled, enough: float
 ) -> float:
-    """What one step misses of log tension that small ones would have seen."""
+    """What one step misses of log tension that small ones would have seen; looked at closer where more than enough."""
 
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""

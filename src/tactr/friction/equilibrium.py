@@ -107,7 +107,7 @@ class Equilibrium:
         settled = _Rounds(self, rounds, passed, pulls, stay, tubes).run(solution)
         if settled is None or near is None or most_missed is None:
             return settled, 0.0
-        missed = _core.friction_history_missed(self.rows, near.found, settled.found)
+        missed = _core.friction_history_missed(self.rows, near.found, settled.found, most_missed)
         return settled if missed <= most_missed else None, missed
 
     def profiles(self, settled: Settled) -> FoundProfiles:
