@@ -70,13 +70,15 @@ class NewtonSolver {
 
     /// From a neighbour's free end and derivatives where the robot is now cut into other sections: a tube's end has passed
     /// another's, a tendon's tension changes its course elsewhere. They go on smoothly there, only the mesh does not fit:
-    /// steps are as long as the longest of the neighbour's. False: it is no neighbour.
+    /// steps are as long as the longest of the neighbour's; where there are fewer sections than before, they are looked for
+    /// anew, for what asked for short ones may have gone. False: it is no neighbour.
     bool carry_over(const Solution& guess, Solution& solution) {
         if (!is_neighbour(guess) || settings.fixed_steps > 0 || guess.mesh.edges.size() != guess.mesh.steps.size() + 1) return false;
         solution.free_end = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
         cut_mesh(solution);
-        for (size_t k = 0; k < layout.sections.size(); ++k) {
+        const bool fewer = layout.sections.size() < guess.mesh.steps.size();
+        for (size_t k = 0; k < layout.sections.size() && !fewer; ++k) {
             const double longest = guess.mesh.longest_step(layout.sections[k].proximal, layout.sections[k].distal);
             if (!(longest > 0.0)) continue;
             const double share = (layout.sections[k].distal - layout.sections[k].proximal) / longest;
