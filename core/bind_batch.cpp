@@ -1,6 +1,5 @@
 // Python's door to batches.
 #include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "batch.hpp"
+#include "bind_arrays.hpp"
 #include "bind_batch.hpp"
 
 namespace nb = nanobind;
@@ -18,8 +18,7 @@ using namespace nb::literals;
 
 namespace {
 
-using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using tactr::array_of, tactr::Shape, tactr::Table, tactr::Vector;
 using Flags = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 void check_shape(const Table& table, size_t rows, size_t columns, const char* name) {
@@ -28,13 +27,12 @@ void check_shape(const Table& table, size_t rows, size_t columns, const char* na
 
 /// A numpy array of one value, put into the dictionary; its data, to be written.
 template <class T>
-T* new_array(nb::dict& out, const char* name, const std::vector<size_t>& shape, T value) {
+T* new_array(nb::dict& out, const char* name, const Shape& shape, T value) {
     size_t size = 1;
     for (size_t n : shape) size *= n;
-    auto* owned = new std::vector<T>(size, value);
-    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-    out[name] = nb::cast(nb::ndarray<nb::numpy, T>(owned->data(), shape.size(), shape.data(), owner));
-    return owned->data();
+    T* first = nullptr;
+    out[name] = array_of(std::vector<T>(size, value), shape, &first);
+    return first;
 }
 
 tactr::BatchResult new_results(nb::dict& out, const tactr::BatchRequest& request, const std::vector<std::string>& outputs) {

@@ -1,44 +1,32 @@
 // Python's door to friction of tendons.
 #include "bind_friction.hpp"
 
-#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tendon_friction.hpp"
+#include "bind_arrays.hpp"
+#include "friction_step.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
 
 namespace {
 
-using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using tactr::array_of, tactr::doubles_of, tactr::Table, tactr::Vector;
 using PreparedRobot = tactr::RobotTables<double>;
 
 struct Channels {
     std::vector<tactr::FrictionChannel> list;
 };
-
-std::vector<double> doubles_of(const Vector& v) { return {v.data(), v.data() + v.shape(0)}; }
-
-std::vector<double> doubles_of(const Vector& v, size_t expected, const char* name) {
-    if (v.shape(0) != expected) throw std::invalid_argument(std::string(name) + " has the wrong length");
-    return doubles_of(v);
-}
-
-nb::object array_of(std::vector<double>&& data, std::initializer_list<size_t> shape) {
-    auto* owned = new std::vector<double>(std::move(data));
-    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, double>(owned->data(), shape, owner));
-}
 
 /// rows: (tendon, tube, end, pieces of friction, contacts or None, cuts), in the order of the tendons.
 Channels channels_of(const nb::list& rows) {
@@ -103,14 +91,34 @@ nb::list profiles_of(const tactr::FrictionSettled& settled) {
     return out;
 }
 
-nb::object run(tactr::FrictionRounds& rounds, const Vector& tension, const Vector& rotation, const Vector& translation,
-               double tolerance, double residual_tolerance, const tactr::Solution& guess, bool stay, const tactr::FrictionSettled* near,
-               double most_missed) {
+tactr::Solution blank_of(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation) {
     tactr::Solution blank;
-    blank.tension = doubles_of(tension, rounds.robot.tendons.size(), "tension");
-    blank.rotation = doubles_of(rotation, rounds.robot.tubes.size(), "rotation");
-    blank.translation = doubles_of(translation, rounds.robot.tubes.size(), "translation");
-    const tactr::Actuation<double> actuation{blank.tension.data(), blank.rotation.data(), blank.translation.data(), 1.0, 1.0};
+    blank.tension = doubles_of(tension, robot.tendons.size(), "tension");
+    blank.rotation = doubles_of(rotation, robot.tubes.size(), "rotation");
+    blank.translation = doubles_of(translation, robot.tubes.size(), "translation");
+    return blank;
+}
+
+std::unique_ptr<tactr::FrictionRounds> rounds_of(const PreparedRobot& plain, const Channels& channels, const nb::object& given,
+                                                 std::vector<double> at, const Vector& translation, double precision) {
+    auto old = curves_of(given);
+    if (old.size() != channels.list.size()) throw std::invalid_argument("one old profile for each channel");
+    for (const tactr::FrictionChannel& channel : channels.list)
+        if (channel.tendon >= static_cast<int>(plain.tendons.size()) || channel.tube >= static_cast<int>(plain.tubes.size()))
+            throw std::invalid_argument("a channel of another robot");
+    return std::make_unique<tactr::FrictionRounds>(plain, channels.list, std::move(old), std::move(at),
+                                                   doubles_of(translation, plain.tubes.size(), "translation"), precision);
+}
+
+void check_places(size_t numbers, const tactr::FrictionSettled& near, const std::vector<const tactr::FrictionSettled*>& past) {
+    bool alike = near.at.size() == numbers;
+    for (const auto* settled : past) alike = alike && settled->at.size() == numbers;
+    if (!alike) throw std::invalid_argument("places of another robot");
+}
+
+nb::object run(tactr::FrictionRounds& rounds, const Vector& tension, const Vector& rotation, const Vector& translation,
+               double tolerance, double residual_tolerance, const tactr::Solution& guess, bool stay) {
+    const tactr::Solution blank = blank_of(rounds.robot, tension, rotation, translation);
     tactr::Settings settings;
     settings.tolerance = tolerance;
     settings.residual_tolerance = residual_tolerance;
@@ -119,9 +127,32 @@ nb::object run(tactr::FrictionRounds& rounds, const Vector& tension, const Vecto
     bool settled = false;
     {
         nb::gil_scoped_release release;
-        settled = rounds.run(actuation, settings, blank, guess, {near, most_missed}, *found);
+        settled = rounds.run(settings, blank, guess, {}, *found);
     }
     return settled ? nb::cast(std::move(found)) : nb::none();
+}
+
+nb::tuple step(const PreparedRobot& plain, const Channels& channels, const nb::object& old, const tactr::FrictionSettled& near,
+               const std::vector<const tactr::FrictionSettled*>& past, const std::vector<double>& at, const Vector& tension,
+               const Vector& rotation, const Vector& translation, double tolerance, double residual_tolerance,
+               std::optional<std::pair<double, double>> limits) {
+    check_places(at.size(), near, past);
+    const tactr::Solution blank = blank_of(plain, tension, rotation, translation);
+    const auto rounds = rounds_of(plain, channels, old, at, translation, residual_tolerance);
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    settings.stay = true;
+    const tactr::StepLimits most = limits ? tactr::StepLimits{limits->first, limits->second} : tactr::StepLimits{};
+    auto found = std::make_unique<tactr::FrictionSettled>();
+    tactr::FrictionSpent spent;
+    bool taken = false;
+    {
+        nb::gil_scoped_release release;
+        taken = tactr::friction_step(*rounds, channels.list, near, past, settings, blank, limits ? &most : nullptr, *found, spent);
+    }
+    nb::object settled = taken ? nb::cast(std::move(found)) : nb::none();
+    return nb::make_tuple(settled, rounds->history_missed, spent.heat, spent.creep);
 }
 
 }  // namespace
@@ -141,23 +172,17 @@ void bind_friction(nb::module_& m) {
 
     nb::class_<FrictionRounds>(m, "FrictionRounds", "Rounds of profiles, shape and wraps.")
         .def("__init__",
-             [](FrictionRounds* self, const PreparedRobot& plain, const Channels& channels, const nb::object& given, const Vector& translation,
-                double precision) {
-                 auto old = curves_of(given);
-                 if (old.size() != channels.list.size()) throw std::invalid_argument("one old profile for each channel");
-                 for (const FrictionChannel& channel : channels.list)
-                     if (channel.tendon >= static_cast<int>(plain.tendons.size()) || channel.tube >= static_cast<int>(plain.tubes.size()))
-                         throw std::invalid_argument("a channel of another robot");
-                 new (self) FrictionRounds(plain, channels.list, std::move(old), doubles_of(translation, plain.tubes.size(), "translation"), precision);
+             [](FrictionRounds* self, const PreparedRobot& plain, const Channels& channels, const nb::object& old, std::vector<double> at,
+                const Vector& translation, double precision) {
+                 new (self) FrictionRounds(*rounds_of(plain, channels, old, std::move(at), translation, precision));
              },
-             "plain"_a, "channels"_a, "old"_a, "translation"_a, "precision"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+             "plain"_a, "channels"_a, "old"_a, "at"_a, "translation"_a, "precision"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
         .def("start_plain", [](FrictionRounds& r, const Solution& s) { if (!r.start(s)) throw std::runtime_error("the solution cannot be sampled"); },
              "solution"_a)
-        .def("start_near", [](FrictionRounds& r, const FrictionSettled& near, const std::vector<std::pair<const FrictionSettled*, double>>& past) {
-                 std::vector<FrictionPast> from;
-                 for (const auto& [settled, place] : past) from.push_back({settled, place});
-                 r.start(near, from);
-             }, "near"_a, "past"_a, "Carried on to place 1 from 0, that of near, and places before it, the latest first.")
+        .def("start_near", [](FrictionRounds& r, const FrictionSettled& near, const std::vector<const FrictionSettled*>& past) {
+                 check_places(r.place().size(), near, past);
+                 r.start(near, past);
+             }, "near"_a, "past"_a, "Carried on from what was found before near, the latest first.")
         .def("profile", [](FrictionRounds& r, const Vector& tension) {
                  r.profile(doubles_of(tension, r.robot.tendons.size(), "tension"));
                  return r.robot;
@@ -177,20 +202,21 @@ void bind_friction(nb::module_& m) {
                  return out;
              }, "robot"_a, "solution"_a)
         .def("run", &run, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a, "guess"_a, "stay"_a,
-             "near"_a = nb::none(), "most_missed"_a = 0.0, "All rounds at given tensions; None: not found, or more missed of the history.")
+             "All rounds at given tensions; None: not found.")
         .def_ro("missed", &FrictionRounds::missed)
-        .def_ro("history_missed", &FrictionRounds::history_missed)
         .def_ro("rounds", &FrictionRounds::rounds);
 
     m.def("friction_heat", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
         std::vector<double> heat, creep;
         friction_heat(channels.list, before, after, heat, creep);
-        const size_t count = heat.size();
-        return nb::make_tuple(array_of(std::move(heat), {count}), array_of(std::move(creep), {count}));
+        return nb::make_tuple(heat, creep);
     }, "channels"_a, "before"_a, "after"_a, "By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m.");
-    m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
-        return FrictionHistory(channels.list, before).missed(after.wraps, after.solution.tension);
-    }, "channels"_a, "before"_a, "after"_a, "What one step misses of log tension that small ones would have seen.");
+    m.def("tendon_friction_step", &step, "plain"_a, "channels"_a, "old"_a, "near"_a, "past"_a, "at"_a, "tension"_a, "rotation"_a,
+          "translation"_a, "tolerance"_a, "residual_tolerance"_a, "limits"_a.none(),
+          "The next equilibrium, None: not found or beyond limits, of history missed and turn; what was missed; heat and creep.");
+    m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after, double enough) {
+        return FrictionHistory(channels.list, before).missed(after.wraps, after.solution.tension, enough);
+    }, "channels"_a, "before"_a, "after"_a, "enough"_a, "What one step misses of log tension that small ones would have seen.");
 }
 
 }  // namespace tactr

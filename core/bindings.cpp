@@ -1,6 +1,5 @@
 // Python's door to the kernel: plain arrays in, plain arrays out. No mechanics here.
 #include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/vector.h>
 
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bind_arrays.hpp"
 #include "bind_batch.hpp"
 #include "bind_friction.hpp"
 #include "energetics.hpp"
@@ -26,21 +26,11 @@ using namespace nb::literals;
 
 namespace {
 
-using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
+using tactr::array_of, tactr::doubles_of, tactr::Shape, tactr::Table, tactr::Vector;
 using PreparedRobot = tactr::RobotTables<double>;
 
-template <size_t N>
-auto array_of(std::vector<double>&& data, const size_t (&shape)[N]) {
-    auto* owned = new std::vector<double>(std::move(data));
-    nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-    return nb::ndarray<nb::numpy, double>(owned->data(), N, shape, owner);
-}
-
 nb::object vector_of(const double* data, size_t count) {
-    const size_t shape[1] = {count};
-    return nb::cast(array_of(std::vector<double>(data, data + count), shape));
+    return array_of(std::vector<double>(data, data + count), {count});
 }
 
 void check_columns(const Table& table, size_t columns, const char* name) {
@@ -103,11 +93,6 @@ void read_profiles(PreparedRobot& robot, const Table& profiles) {
     }
 }
 
-std::vector<double> copied(const Vector& v, size_t expected, const char* name) {
-    if (v.shape(0) != expected) throw std::invalid_argument(std::string(name) + " has the wrong length");
-    return std::vector<double>(v.data(), v.data() + expected);
-}
-
 void read_tendons(PreparedRobot& robot, const Table& tendons, const Table& profiles) {
     check_columns(tendons, 5, "tendons");  // tube, outermost, end, number of routing pieces, of tension pieces
     int routing = 0, profile = 0;
@@ -151,9 +136,9 @@ void read_loads(PreparedRobot& robot, const Table& points, const Table& distribu
 
 tactr::Solution blank(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation) {
     tactr::Solution solution;
-    solution.tension = copied(tension, robot.tendons.size(), "tension");
-    solution.rotation = copied(rotation, robot.tubes.size(), "rotation");
-    solution.translation = copied(translation, robot.tubes.size(), "translation");
+    solution.tension = doubles_of(tension, robot.tendons.size(), "tension");
+    solution.rotation = doubles_of(rotation, robot.tubes.size(), "rotation");
+    solution.translation = doubles_of(translation, robot.tubes.size(), "translation");
     return solution;
 }
 
@@ -197,15 +182,15 @@ nb::object tube_field(const tactr::Samples& samples, size_t width, Getter get) {
     data.reserve(samples.stations.size() * samples.tubes * width);
     for (int i = 0; i < samples.tubes; ++i)
         for (const auto& station : samples.stations) data.insert(data.end(), get(station, i), get(station, i) + width);
-    const size_t shape[3] = {static_cast<size_t>(samples.tubes), samples.stations.size(), width};
-    return nb::cast(array_of(std::move(data), shape));
+    const Shape shape{static_cast<size_t>(samples.tubes), samples.stations.size(), width};
+    return array_of(std::move(data), shape);
 }
 
 nb::object station_field(const tactr::Samples& samples, size_t width, Getter get) {
     std::vector<double> data;
     for (const auto& station : samples.stations) data.insert(data.end(), get(station, 0), get(station, 0) + width);
-    const size_t shape[2] = {samples.stations.size(), width};
-    return nb::cast(array_of(std::move(data), shape));
+    const Shape shape{samples.stations.size(), width};
+    return array_of(std::move(data), shape);
 }
 
 nb::dict sample(const PreparedRobot& robot, const tactr::Solution& solution, const Vector& stations) {
@@ -231,10 +216,10 @@ nb::dict sample(const PreparedRobot& robot, const tactr::Solution& solution, con
             tendon.insert(tendon.end(), {static_cast<double>(record.host), record.r[0], record.r[1], record.tension, record.rate});
             tendon.insert(tendon.end(), record.direction, record.direction + 3);
         }
-    const size_t tube_shape[2] = {static_cast<size_t>(samples.tubes), s.size()};
-    const size_t tendon_shape[3] = {static_cast<size_t>(samples.tendons), s.size(), 8};
-    out["present"] = nb::cast(array_of(std::move(present), tube_shape));
-    out["tendon"] = nb::cast(array_of(std::move(tendon), tendon_shape));
+    const Shape tube_shape{static_cast<size_t>(samples.tubes), s.size()};
+    const Shape tendon_shape{static_cast<size_t>(samples.tendons), s.size(), 8};
+    out["present"] = array_of(std::move(present), tube_shape);
+    out["tendon"] = array_of(std::move(tendon), tendon_shape);
     return out;
 }
 
@@ -257,8 +242,8 @@ nb::object sensitivities(const PreparedRobot& robot, const tactr::Solution& solu
         regular = tactr::find_sensitivities(robot, solution, request, found);
     }
     if (!regular) throw std::runtime_error("the solution has no derivatives: it is singular");
-    const size_t shape[2] = {static_cast<size_t>(found.rows), static_cast<size_t>(found.columns)};
-    return nb::cast(array_of(std::move(found.matrix), shape));
+    const Shape shape{static_cast<size_t>(found.rows), static_cast<size_t>(found.columns)};
+    return array_of(std::move(found.matrix), shape);
 }
 
 /// d(tendon lengths)/d(tensions), (tendons, tendons).
@@ -268,13 +253,14 @@ nb::object length_jacobian(const PreparedRobot& robot, const tactr::Solution& so
     tactr::Sensitivities found;
     if (!tactr::find_sensitivities(robot, solution, request, found))
         throw std::runtime_error("the solution has no derivatives: it is singular");
-    const size_t m = robot.tendons.size(), shape[2] = {m, m};
+    const size_t m = robot.tendons.size();
+    const Shape shape{m, m};
     std::vector<double> square;
     for (size_t j = 0; j < m; ++j) {
         const auto row = found.matrix.begin() + static_cast<long>((6 + j) * found.columns);
         square.insert(square.end(), row, row + static_cast<long>(m));
     }
-    return nb::cast(array_of(std::move(square), shape));
+    return array_of(std::move(square), shape);
 }
 
 /// (solution, missed at the base, d(missed, lengths)/d(free end, tensions)), or None: a section had no equilibrium. The
@@ -282,9 +268,9 @@ nb::object length_jacobian(const PreparedRobot& robot, const tactr::Solution& so
 nb::object joint_march(const PreparedRobot& robot, const tactr::Solution& neighbour, const Vector& step, const Vector& tension,
                        const Vector& rotation, const Vector& translation, double tolerance) {
     tactr::Solution solution = neighbour;
-    solution.tension = copied(tension, robot.tendons.size(), "tension");
-    solution.rotation = copied(rotation, robot.tubes.size(), "rotation");
-    solution.translation = copied(translation, robot.tubes.size(), "translation");
+    solution.tension = doubles_of(tension, robot.tendons.size(), "tension");
+    solution.rotation = doubles_of(rotation, robot.tubes.size(), "rotation");
+    solution.translation = doubles_of(translation, robot.tubes.size(), "translation");
     solution.iterations = 0;
     solution.steps_marched = 0;
     solution.stability = tactr::StabilityFound::unchecked;
@@ -300,7 +286,8 @@ nb::object joint_march(const PreparedRobot& robot, const tactr::Solution& neighb
         marched = tactr::joint_march(robot.view(), moved, settings, solution, found);
     }
     if (!marched) return nb::none();
-    const size_t rows = found.missed.size() + robot.tendons.size(), shape[2] = {rows, rows};
+    const size_t rows = found.missed.size() + robot.tendons.size();
+    const Shape shape{rows, rows};
     return nb::make_tuple(solution, vector_of(found.missed.data(), found.missed.size()), array_of(std::move(found.matrix), shape));
 }
 
@@ -314,12 +301,12 @@ nb::dict contact_arrays(const std::vector<tactr::ContactRecord>& records, size_t
             force.insert(force.end(), record.on[i].force, record.on[i].force + 3);
             moment.insert(moment.end(), record.on[i].moment, record.on[i].moment + 3);
         }
-    const size_t line[1] = {records.size()}, plane[2] = {tubes, records.size()}, cube[3] = {tubes, records.size(), 3};
+    const Shape line{records.size()}, plane{tubes, records.size()}, cube{tubes, records.size(), 3};
     nb::dict out;
-    out["s"] = nb::cast(array_of(std::move(s), line));
-    out["outer"] = nb::cast(array_of(std::move(outer), plane));
-    out["force"] = nb::cast(array_of(std::move(force), cube));
-    out["moment"] = nb::cast(array_of(std::move(moment), cube));
+    out["s"] = array_of(std::move(s), line);
+    out["outer"] = array_of(std::move(outer), plane);
+    out["force"] = array_of(std::move(force), cube);
+    out["moment"] = array_of(std::move(moment), cube);
     return out;
 }
 
@@ -380,8 +367,8 @@ nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const 
     out["limit"] = vector_of(found->limit.data(), found->limit.size());
     out["pressing"] = vector_of(found->pressing.data(), found->pressing.size());
     out["slides"] = vector_of(found->slides.data(), found->slides.size());
-    const size_t square[2] = {list.size(), found->compliance.size() / (list.empty() ? 1 : list.size())};
-    out["compliance"] = nb::cast(array_of(std::move(found->compliance), square));
+    const Shape square{list.size(), found->compliance.size() / (list.empty() ? 1 : list.size())};
+    out["compliance"] = array_of(std::move(found->compliance), square);
     out["iterations"] = found->iterations;
     out["missing"] = found->missing;
     out["settled"] = found->settled;

@@ -7,35 +7,37 @@
 namespace tactr {
 
 /// What one step from an equilibrium misses. The cone between the ends is estimated from curvatures of the tendons' paths and
-/// tensions at the base that change linearly.
+/// tensions at the base that change linearly. That may say too much: curvatures change as the tensions there do, which wait
+/// until a front comes by. Where it matters they are followed in this way.
 class FrictionHistory {
   public:
     static constexpr int LOOKS = 65;  // places along a tendon
+    using Places = double[LOOKS];
 
     /// Of a tendon's path at places alike: its bend, and kinks since the place before, times the coefficient, by axis.
     struct Course {
-        double bend[3][LOOKS], kink[3][LOOKS];
+        Places bend[3], kink[3];
         bool kinked = false;
 
         explicit Course(const Wrap& wrap);
     };
 
-    FrictionHistory(const std::vector<FrictionChannel>& channels, const FrictionSettled& before);
-
-    /// Of log tension, the largest of all channels. wraps, tension (tendons,): after the step.
-    double missed(const std::vector<Wrap>& wraps, const std::vector<double>& tension) const;
-
-  private:
     struct Start {
         Course course;
-        double y[LOOKS];  // log tension
+        Places y;           // log tension
+        double base, end;   // s of the tube's proximal end, and the tendon's end from there
+        double tension;     // at the base
     };
-    const std::vector<FrictionChannel>& channels_;
-    const std::vector<double>& tension_;
-    std::vector<Start> starts_;
 
-    /// from, to: tension at the base before and after.
-    static double missed_by(const Start& start, const Course& after, double end, double from, double to);
+    FrictionHistory(const std::vector<FrictionChannel>& channels, const FrictionSettled& before);
+
+    /// Of log tension, the largest of all channels. wraps, tension (tendons,): after the step. enough: what is more is looked
+    /// at closer.
+    double missed(const std::vector<Wrap>& wraps, const std::vector<double>& tension, double enough) const;
+
+  private:
+    const std::vector<FrictionChannel>& channels_;
+    std::vector<Start> starts_;
 };
 
 }  // namespace tactr

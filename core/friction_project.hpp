@@ -198,14 +198,17 @@ class FrictionWalk {
         return 0.5 * (a + b);
     }
 
-    /// Runs too short to matter, each with all that it holds left to the next.
+    /// Short runs that hardly differ from what the next would be in their place go to it.
     void drop_slivers(double end) {
-        constexpr double SLIVER = 1e-5;  // of the tendon
+        constexpr double SLIVER = 1e-5, SHORT = 1e-2;  // of the tendon: whatever it holds, and at most
         for (size_t k = runs_.size() - 1; k-- > 0;) {
             Run& next = runs_[k + 1];
-            if (next.start - runs_[k].start > SLIVER * end) continue;
-            if (next.slide != 0) next.y -= next.slide * (wrap_.rise.at(next.start) - wrap_.rise.at(runs_[k].start));
-            next.start = runs_[k].start;
+            const double start = runs_[k].start, length = next.start - start;
+            if (length > SHORT * end) continue;
+            const double y = next.slide == 0 ? old_.at(start + 1e-12) : next.y - next.slide * (wrap_.rise.at(next.start) - wrap_.rise.at(start));
+            if (length > SLIVER * end && !(std::fabs(y - runs_[k].y) <= noise_)) continue;
+            next.y = y;
+            next.start = start;
             runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(k));
         }
     }

@@ -23,6 +23,8 @@ struct FrictionSettled {
     double missed = 0.0;  // rad, by how much wraps and profiles disagree
     int rounds = 0;
     std::vector<RoundsPair> pairs;  // of the last rounds
+    std::vector<double> at;         // all that its actuators pass on, to tell ways by
+    mutable std::optional<bool> stable;  // where it was asked for
 };
 
 /// Of one step, by channel: heat, J, and the largest slip where the tendon counts as stuck, m. The tendon's end does not

@@ -139,26 +139,26 @@ class WrapReader {
                 wrap.rate.back().fill(part.length / (section.distal - section.proximal));
             }
             finish(channel, wrap);
-            note_disks(channel, chord, wrap);
+            note_disks(channel, chord, Triple{}, wrap);
         }
         return true;
     }
 
-    /// chord: of the panels.
-    static void note_disks(const FrictionChannel& channel, const std::vector<Triple>& chord, Wrap& wrap) {
-        const auto& edges = wrap.rise.edges;
-        const auto span = [&](double from, double to) {
-            Triple sum{};
-            for (size_t k = 0; k < chord.size(); ++k)
-                if (edges[k] > from - EDGE_GAP && edges[k + 1] < to + EDGE_GAP)
-                    for (int a = 0; a < 3; ++a) sum[a] += chord[k][a];
-            return unit(sum);
-        };
-        Triple before{};
-        for (size_t n = 0; n <= channel.contacts.size(); ++n) {
-            const double from = n == 0 ? 0.0 : channel.contacts[n - 1];
-            const Triple after = span(from, n < channel.contacts.size() ? channel.contacts[n] : channel.end);
-            if (n > 0) note_disk(channel.coefficient(from), before, after, from, wrap);
+    /// chord: of the panels; before: direction at the base.
+    static void note_disks(const FrictionChannel& channel, const std::vector<Triple>& chord, Triple before, Wrap& wrap) {
+        std::vector<double> starts{0.0};  // of the spans
+        for (double contact : channel.contacts)
+            if (contact > EDGE_GAP) starts.push_back(contact);
+        std::vector<Triple> span(starts.size(), Triple{});
+        for (size_t k = 0; k < chord.size(); ++k) {
+            const double middle = 0.5 * (wrap.rise.edges[k] + wrap.rise.edges[k + 1]);
+            const auto n = std::upper_bound(starts.begin(), starts.end(), middle) - starts.begin() - 1;
+            for (int a = 0; a < 3; ++a) span[n][a] += chord[k][a];
+        }
+        const bool at_base = !channel.contacts.empty() && channel.contacts.front() <= EDGE_GAP;
+        for (size_t n = 0; n < starts.size(); ++n) {
+            const Triple after = unit(span[n]);
+            if (n > 0 || at_base) note_disk(channel.coefficient(starts[n]), before, after, starts[n], wrap);
             before = after;
         }
     }
@@ -295,24 +295,13 @@ class WrapReader {
     }
 
     void over_disks(const FrictionChannel& channel, Wrap& wrap) const {
-        std::vector<double> spans{0.0};
-        for (double contact : channel.contacts)
-            if (contact > EDGE_GAP) spans.push_back(contact);
-        std::vector<Triple> chord(spans.size(), Triple{});
+        std::vector<Triple> chord(directions_.size(), Triple{});
         for (size_t k = 0; k < directions_.size(); ++k) {
-            const double middle = 0.5 * (wrap.rise.edges[k] + wrap.rise.edges[k + 1]), length = wrap.rise.edges[k + 1] - wrap.rise.edges[k];
-            const auto span = std::upper_bound(spans.begin(), spans.end(), middle) - spans.begin() - 1;
+            const double half = 0.5 * (wrap.rise.edges[k + 1] - wrap.rise.edges[k]);
             for (int p = 0; p < CURVE_POINTS; ++p)
-                for (int a = 0; a < 3; ++a) chord[span][a] += 0.5 * length * rules_.weight[p] * wrap.rate[k][p] * directions_[k][p][a];
+                for (int a = 0; a < 3; ++a) chord[k][a] += half * rules_.weight[p] * wrap.rate[k][p] * directions_[k][p][a];
         }
-        Triple before = unit(at_end(0, false));
-        for (size_t n = 0; n < spans.size(); ++n) {
-            const Triple after = unit(chord[n]);
-            if (n > 0 || (!channel.contacts.empty() && channel.contacts.front() <= EDGE_GAP)) {
-                note_disk(channel.coefficient(spans[n]), before, after, spans[n], wrap);
-            }
-            before = after;
-        }
+        note_disks(channel, chord, unit(at_end(0, false)), wrap);
     }
 
     static Triple unit(Triple v) {

@@ -45,6 +45,12 @@ class NewtonSolver {
             solution.mesh.steps[k] = std::max(1, static_cast<int>(std::ceil(layout.sections[k].winding / MOST_WINDING)));
     }
 
+    /// Whether a solution is one of such a robot.
+    bool is_neighbour(const Solution& guess) const {
+        return guess.status == Status::converged && guess.mesh.unknowns == shooting.unknowns &&
+               static_cast<int>(guess.rotation.size()) == robot.tube_count;
+    }
+
     /// Takes over a neighbour's free end, mesh and derivatives. False: it is no neighbour.
     bool start_from(const Solution& guess, Solution& solution) {
         if (!take_over(guess, solution)) return false;
@@ -53,38 +59,32 @@ class NewtonSolver {
     }
 
     /// The same, and stays there.
-    bool take_over(const Solution& guess, Solution& solution) {
-        const bool fits = guess.status == Status::converged && guess.mesh.unknowns == shooting.unknowns &&
-                          static_cast<int>(guess.rotation.size()) == robot.tube_count &&
-                          guess.mesh.steps.size() == layout.sections.size();
-        if (!fits) return false;
+    bool take_over(const Solution& guess, Solution& solution) const {
+        if (!is_neighbour(guess) || guess.mesh.steps.size() != layout.sections.size()) return false;
         solution.free_end = guess.free_end;
         solution.mesh = guess.mesh;
         solution.mesh.marched = guess.free_end;
-        note_edges(solution);
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
         return true;
     }
 
     /// From a neighbour's free end and derivatives where the robot is now cut into other sections: a tube's end has passed
     /// another's, a tendon's tension changes its course elsewhere. They go on smoothly there, only the mesh does not fit:
-    /// steps are as long as the longest of the neighbour's. False: it is no neighbour.
+    /// steps are as long as the longest of the neighbour's; where there are fewer sections than before, they are looked for
+    /// anew, for what asked for short ones may have gone. False: it is no neighbour.
     bool carry_over(const Solution& guess, Solution& solution) {
-        const bool fits = guess.status == Status::converged && guess.mesh.unknowns == shooting.unknowns &&
-                          static_cast<int>(guess.rotation.size()) == robot.tube_count && settings.fixed_steps == 0 &&
-                          guess.mesh.edges.size() == guess.mesh.steps.size() + 1;
-        if (!fits) return false;
+        if (!is_neighbour(guess) || settings.fixed_steps > 0 || guess.mesh.edges.size() != guess.mesh.steps.size() + 1) return false;
         solution.free_end = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
         cut_mesh(solution);
-        for (size_t k = 0; k < layout.sections.size(); ++k) {
+        const bool fewer = layout.sections.size() < guess.mesh.steps.size();
+        for (size_t k = 0; k < layout.sections.size() && !fewer; ++k) {
             const double longest = guess.mesh.longest_step(layout.sections[k].proximal, layout.sections[k].distal);
             if (!(longest > 0.0)) continue;
             const double share = (layout.sections[k].distal - layout.sections[k].proximal) / longest;
             solution.mesh.steps[k] = std::clamp(static_cast<int>(std::lround(share)), solution.mesh.steps[k], March<double, double>::MAX_STEPS);
         }
         solution.mesh.fit();
-        note_edges(solution);
         if (shooting.unknowns > 0) approach(guess, solution);
         return true;
     }
@@ -160,8 +160,6 @@ class NewtonSolver {
         cut_mesh(solution);
         if (plain_march(solution, unloaded, base)) shooting.upright(base, actuation.rotation[0], solution.free_end);
     }
-
-    static constexpr double CLOSE = 1e-2;  // rad: so far derivatives and error estimates serve as they are
 
     /// How a march is made. rough: derivatives, sections solved roughly. firm: derivatives, every section to its
     /// tolerance. draft: as rough, with path and error estimate too. exact: as firm, with path and error estimate.

@@ -71,9 +71,7 @@ void solve_cold(NewtonSolver& newton, Solution& solution) {
 
 /// From a neighbour's free end alone.
 bool converge_near(NewtonSolver& newton, const Solution& guess, Solution& solution) {
-    if (guess.status != Status::converged || guess.mesh.unknowns != newton.shooting.unknowns ||
-        static_cast<int>(guess.rotation.size()) != newton.robot.tube_count)
-        return false;
+    if (!newton.is_neighbour(guess)) return false;
     solution.free_end = guess.free_end;
     newton.choose_mesh(solution);
     return newton.polish(solution);
@@ -93,14 +91,13 @@ void solve(const Robot& robot, const Actuation<double>& actuation, const Setting
     settings.max_steps = std::min(most_steps_of(robot), given.most_work);
     if (guess && given.stay) settings.max_iterations = MOST_NEARBY;
     NewtonSolver newton(robot, actuation, settings);
-    if (guess && converge_from(newton, *guess, solution)) {
-        newton.note_edges(solution);
-    } else if (guess && settings.stay) {
+    const bool near = guess && converge_from(newton, *guess, solution);
+    if (!near && guess && settings.stay) {
         solution.status = Status::stalled;
-    } else {
-        solve_cold(newton, solution);
-        newton.note_edges(solution);
+        return;
     }
+    if (!near) solve_cold(newton, solution);
+    newton.note_edges(solution);
 }
 
 std::vector<Solution> branches(const Robot& robot, const Actuation<double>& actuation, const Settings& given, int samples,

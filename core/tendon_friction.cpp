@@ -70,6 +70,26 @@ std::vector<double> shares(const std::vector<RoundsPair>& pairs, std::vector<dou
     return share;
 }
 
+/// Where those of the past are on the straight way from one place, at 0, to another, at 1, as far back as they lie on it; none
+/// where the last step was much shorter than this one.
+std::vector<double> places_before(const std::vector<double>& from, const std::vector<double>& to,
+                                  const std::vector<const FrictionSettled*>& past) {
+    std::vector<double> places;
+    double length = 0.0;
+    for (size_t i = 0; i < from.size(); ++i) length += (to[i] - from[i]) * (to[i] - from[i]);
+    for (const FrictionSettled* settled : past) {
+        double along = 0.0, square = 0.0;
+        for (size_t i = 0; i < from.size(); ++i) {
+            const double back = from[i] - settled->at[i];
+            along += back * (to[i] - from[i]);
+            square += back * back;
+        }
+        if (along <= 0.0 || along * along <= 0.999 * square * length || (places.empty() && length >= 4.0 * square)) break;
+        places.push_back(-along / length);
+    }
+    return places;
+}
+
 std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
     std::vector<double> out(a.size());
     for (size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
@@ -79,8 +99,9 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
 }  // namespace
 
 FrictionRounds::FrictionRounds(const RobotTables<double>& plain, const std::vector<FrictionChannel>& channels,
-                               std::vector<std::optional<Curve>> old, const std::vector<double>& translation, double precision)
-    : robot(plain), profiles(channels.size()), plain_(plain), channels_(channels), old_(std::move(old)), translation_(translation), precision_(precision) {
+                               std::vector<std::optional<Curve>> old, std::vector<double> at, const std::vector<double>& translation, double precision)
+    : robot(plain), profiles(channels.size()), plain_(plain), channels_(channels), old_(std::move(old)), at_(std::move(at)),
+      translation_(translation), precision_(precision) {
     const Layout<double> layout = cut_into_sections(plain.view(), translation.data());
     std::vector<double> ends{layout.sections.front().proximal};
     for (const auto& section : layout.sections) ends.push_back(section.distal);
@@ -91,21 +112,21 @@ bool FrictionRounds::start(const Solution& solution) {
     return channels_.empty() || read(plain_, solution, wraps_);
 }
 
-void FrictionRounds::start(const FrictionSettled& near, const std::vector<FrictionPast>& past) {
+void FrictionRounds::start(const FrictionSettled& near, const std::vector<const FrictionSettled*>& past) {
     wraps_ = near.wraps;
     std::vector<double> now;
     numbers_of(wraps_, now);
     for (const RoundsPair& pair : near.pairs)
         if (pair.missed.size() == now.size() && static_cast<int>(pairs_.size()) < MOST_PAIRS) pairs_.push_back(pair);
-    if (past.empty()) return;
-    // Newton's divided differences of the places 0, past...
-    std::vector<double> places{0.0};
+    std::vector<double> places = places_before(near.at, at_, past);
+    if (places.empty()) return;
+    // Newton's divided differences of the places 0, before...
     std::vector<std::vector<double>> slopes{std::move(now)};
-    for (const FrictionPast& from : past) {
+    for (size_t k = 0; k < places.size(); ++k) {
         slopes.emplace_back();
-        numbers_of(from.settled->wraps, slopes.back());
-        places.push_back(from.place);
+        numbers_of(past[k]->wraps, slopes.back());
     }
+    places.insert(places.begin(), 0.0);
     for (size_t order = 1; order < slopes.size(); ++order)
         for (size_t k = slopes.size(); k-- > order;)
             for (size_t i = 0; i < slopes[k].size(); ++i)
@@ -197,9 +218,10 @@ void FrictionRounds::mix(std::vector<double>& tension, const std::vector<double>
     last_given_ = std::move(given);
 }
 
-bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& settings, const Solution& blank,
-                         const Solution& guess, const HistoryLimit& limit, FrictionSettled& out) {
-    const std::vector<double> tension(actuation.tension, actuation.tension + robot.tendons.size());
+bool FrictionRounds::run(const Settings& settings, const Solution& blank, const Solution& guess, const HistoryLimit& limit,
+                         FrictionSettled& out) {
+    const std::vector<double>& tension = blank.tension;
+    const Actuation<double> actuation{tension.data(), blank.rotation.data(), blank.translation.data(), 1.0, 1.0};
     const double aim = settings.residual_tolerance;
     std::optional<FrictionHistory> history;
     if (limit.near) history.emplace(channels_, *limit.near);
@@ -211,7 +233,7 @@ bool FrictionRounds::run(const Actuation<double>& actuation, const Settings& set
         const Robot view = robot.view();
         const Glance seen = channels_.empty() ? Glance::failed : glance(view, actuation, settings, blank, solved, near);
         const auto too_long = [&] {  // for all that the wraps may still change
-            if (history && (rounds <= LOOKING || missed <= aim)) history_missed = history->missed(after_, tension);
+            if (history && (rounds <= LOOKING || missed <= aim)) history_missed = history->missed(after_, tension, limit.most);
             return history_missed > limit.most + 2.0 * missed;
         };
         if (seen != Glance::failed && too_long()) return false;
@@ -240,8 +262,9 @@ FrictionRounds::Glance FrictionRounds::glance(const Robot& view, const Actuation
     if (!rigid && !solved) return Glance::failed;
     Solution trial = rigid ? blank : near;
     if (!newton.take_over(near, trial) || (!rigid && !newton.step_by_derivatives(trial))) return Glance::failed;
-    if (newton.shooting.distance(near.free_end, trial.free_end) > NewtonSolver::CLOSE) return Glance::failed;
+    if (newton.shooting.distance(near.free_end, trial.free_end) > Stride::CLOSE) return Glance::failed;
     if (!WrapReader(channels_, joints_).read(newton, trial, after_)) return Glance::failed;
+    newton.note_edges(trial);
     trial.status = Status::converged;
     near = std::move(trial);
     ++rounds;
@@ -256,6 +279,7 @@ void FrictionRounds::settle(const RobotTables<double>& shaped, const Solution& s
     out.missed = missed;
     out.rounds = rounds;
     out.pairs = pairs_;
+    out.at = at_;
 }
 
 RobotTables<double> FrictionRounds::rates(const RobotTables<double>& still, size_t channel, double tension, bool all) const {

@@ -14,12 +14,6 @@ struct HistoryLimit {
     double most = 0.0;                      // of log tension
 };
 
-/// An equilibrium further back on a way, at a place below 0; the latest first.
-struct FrictionPast {
-    const FrictionSettled* settled;
-    double place;
-};
-
 /// A round: profiles from the wraps by the friction step, the shape at these profiles, the wraps in that shape. The map from
 /// wraps to wraps contracts by about the friction angle; Anderson's mixing (1965) of the last rounds, those of the step
 /// before among them, makes it converge in a few. Wraps are mixed as numbers: rises at points and jumps at joints.
@@ -31,16 +25,19 @@ class FrictionRounds {
     double history_missed = 0.0;  // by the step, where there is a limit to it
     int rounds = 0;
 
-    /// plain: without profiles of friction; old: log tension before, none where there was no tension; precision: rad, to
-    /// which shapes are found.
+    /// plain: without profiles of friction; old: log tension before, none where there was no tension; at: what the actuators
+    /// pass on; precision: rad, to which shapes are found.
     FrictionRounds(const RobotTables<double>& plain, const std::vector<FrictionChannel>& channels,
-                   std::vector<std::optional<Curve>> old, const std::vector<double>& translation, double precision);
+                   std::vector<std::optional<Curve>> old, std::vector<double> at, const std::vector<double>& translation, double precision);
 
     /// From the wraps in a shape without friction. False: it cannot be sampled.
     bool start(const Solution& solution);
 
-    /// From those of the equilibrium before, carried on to place 1 of a way on which it is at 0 and others were before.
-    void start(const FrictionSettled& near, const std::vector<FrictionPast>& past);
+    /// From those of the equilibrium before, carried on from those before it, the latest first, as far back as they lie on one
+    /// straight way.
+    void start(const FrictionSettled& near, const std::vector<const FrictionSettled*>& past);
+
+    const std::vector<double>& place() const { return at_; }
 
     /// Profiles at tensions at the base (tendons,).
     void profile(const std::vector<double>& tension);
@@ -51,10 +48,9 @@ class FrictionRounds {
     /// Wraps to go on with; and tensions, from those of this round and those to go on with (all over the scale).
     void mix(std::vector<double>& tension, const std::vector<double>& next);
 
-    /// Rounds at given tensions, the first of them without solving for the shape anew: the free end follows by the
-    /// neighbour's derivatives. False: not found, or beyond the limit.
-    bool run(const Actuation<double>& actuation, const Settings& settings, const Solution& blank, const Solution& guess,
-             const HistoryLimit& limit, FrictionSettled& out);
+    /// Rounds at the tensions of the blank solution, the first of them without solving for the shape anew: the free end follows
+    /// by the neighbour's derivatives. False: not found, or beyond the limit.
+    bool run(const Settings& settings, const Solution& blank, const Solution& guess, const HistoryLimit& limit, FrictionSettled& out);
 
     void settle(const RobotTables<double>& shaped, const Solution& solution, FrictionSettled& out) const;
 
@@ -65,7 +61,7 @@ class FrictionRounds {
     const RobotTables<double>& plain_;
     const std::vector<FrictionChannel>& channels_;
     const std::vector<std::optional<Curve>> old_;
-    const std::vector<double> translation_;
+    const std::vector<double> at_, translation_;
     const double precision_;
     std::vector<std::vector<double>> joints_;
     std::vector<Wrap> wraps_, after_;      // of this round, and in its shape

@@ -140,7 +140,6 @@ class FrictionRounds:
     """Rounds of profiles, shape and wraps."""
 
     missed: float
-    history_missed: float
     rounds: int
 
     def __init__(
@@ -148,17 +147,18 @@ class FrictionRounds:
         plain: PreparedRobot,
         channels: FrictionChannels,
         old: FrictionSettled | list,
+        at: list[float],
         translation: np.ndarray,
         precision: float,
     ) -> None:
-        """old: of an equilibrium, or edges and Chebyshev coefficients of log tension before, and anything
-        after them, None without tension; by channel. precision: rad, to which shapes are found."""
+        """old: of an equilibrium, or edges and Chebyshev coefficients of log tension before, None without
+        tension; by channel. at: what actuators pass on. precision: rad, to which shapes are found."""
 
     def start_plain(self, solution: Solution) -> None:
         """From the wraps in a shape without friction."""
 
-    def start_near(self, near: FrictionSettled, past: list[tuple[FrictionSettled, float]]) -> None:
-        """Carried on to place 1 of a way from 0, that of near, and places before it, the latest first."""
+    def start_near(self, near: FrictionSettled, past: list[FrictionSettled]) -> None:
+        """Carried on from what was found before near, the latest first."""
 
     def profile(self, tension: np.ndarray) -> PreparedRobot:
         """The robot with profiles at these tensions at the base."""
@@ -187,20 +187,35 @@ class FrictionRounds:
         residual_tolerance: float,
         guess: Solution,
         stay: bool,
-        near: FrictionSettled | None = None,
-        most_missed: float = 0.0,
     ) -> FrictionSettled | None:
-        """All rounds at given tensions; None: not found, or more missed of the history since near."""
+        """All rounds at given tensions; None: not found."""
+
+def tendon_friction_step(
+    plain: PreparedRobot,
+    channels: FrictionChannels,
+    old: FrictionSettled | list,
+    near: FrictionSettled,
+    past: list[FrictionSettled],
+    at: list[float],
+    tension: np.ndarray,
+    rotation: np.ndarray,
+    translation: np.ndarray,
+    tolerance: float,
+    residual_tolerance: float,
+    limits: tuple[float, float] | None,
+) -> tuple[FrictionSettled | None, float, list[float], list[float]]:
+    """The next equilibrium; what was missed of its history; heat, J, and creep, m, by channel. limits: of
+    history missed and turn, rad; None: not found, or beyond them, or no longer stable."""
 
 def friction_heat(
     channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[list[float], list[float]]:
     """By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m."""
 
 def friction_history_missed(
-    channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled
+    channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled, enough: float
 ) -> float:
-    """What one step misses of log tension that small ones would have seen."""
+    """What one step misses of log tension that small ones would have seen; closer where more than enough."""
 
 def sample(robot: PreparedRobot, solution: Solution, stations: np.ndarray) -> dict[str, np.ndarray]:
     """Shape of a converged solution at ascending s."""

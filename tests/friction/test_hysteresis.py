@@ -12,7 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import tactr
-from tactr import Annulus, DriveState, Material, Robot, Straight, Tendon, Tube
+from tactr import Annulus, DriveState, Material, Robot, Straight, Tendon, Tube, _core
+from tactr.friction.equilibrium import Equilibrium
+from tactr.statics.solve import Prepared
 
 from .robots import SOFT, bending, legs, pulled, rubbing_tubes
 
@@ -73,6 +75,39 @@ def test_half_the_steps_of_several_tendons(disks, corners, least):
     ]
     assert tips[1] == pytest.approx(tips[0], abs=least)
     assert tips[2] == pytest.approx(tips[1], abs=least)
+
+
+def test_one_tube_needs_no_cuts_on_its_way_back():
+    """Its curvature at a place waits for the front there, as its tension does: one step misses nothing."""
+    driven = tactr.drive(bending(), pulled(legs([8.0, 3.0, 7.0], 20)))
+    assert driven.steps == (1,) * 41
+
+
+def test_what_a_step_misses_is_estimated():
+    """Not by much too low: three tubes whose tendons are pulled out of step, one step against eight."""
+    robot, turn = rubbing_tubes(0.15, None), np.linspace(0.0, 5.0, 25)[:, None]
+    rows = (4.0 + 3.0 * np.cos(turn + np.arange(3.0))) * [0.75, 0.5, 0.25]
+    fine = tactr.drive(robot, {"tension": legs(rows, 8)})
+    channels = Equilibrium(Prepared(robot)).rows
+    pairs = []
+    for k in range(1, len(rows) - 1):
+        before, after = fine.states[8 * k], fine.states[8 * k + 8]
+        step = tactr.drive(robot, {"tension": rows[k + 1 : k + 2]}, state=before).state
+        ends = before.along.found, step.along.found
+        pairs.append((_core.friction_history_missed(channels, *ends, 1e-4), apart(step, after)))
+    estimated, true = np.transpose([pair for pair in pairs if pair[1] > 1e-4])
+    assert len(true) >= 4
+    assert (estimated > 0.4 * true).all()
+
+
+def apart(one: DriveState, other: DriveState) -> float:
+    """Largest difference of log tension, fronts left away."""
+    found = 0.0
+    for tendon, p in zip(one.tendons, one.profiles, strict=True):
+        sigma = np.linspace(0.0, p.log.edges[-1], 400, endpoint=False)
+        ratio = np.log(one.tension(tendon, sigma) / other.tension(tendon, sigma))
+        found = max(found, float(np.sort(np.abs(ratio))[-4]))
+    return found
 
 
 def test_short_ways_end():

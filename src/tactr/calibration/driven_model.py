@@ -9,7 +9,6 @@ from tactr.calibration.parameters import FRAME, Free
 from tactr.friction import drive
 from tactr.statics.shape import Shape
 
-TENDONS = ("tension", "displacement")
 STEP = 1e-2  # of a number's scale: far above what drives are solved to
 
 
@@ -53,20 +52,10 @@ class DrivenModel(Model):
     def _driven(self, setting: Setting, tick: Ticker | None) -> list[Shape | None]:
         progress = None if tick is None else (lambda done, count: tick(done - 1))
         driven = drive(
-            setting.robot, self._path(setting), tolerance=self.tolerance, stations=2, progress=progress
+            setting.robot, self._actuation(setting), tolerance=self.tolerance, stations=2, progress=progress
         )
         pairs = zip(driven.shapes, driven.failed, strict=True)
         return [None if text else shape for shape, text in pairs]
-
-    def _path(self, setting: Setting) -> list[dict[str, dict[str, float]]]:
-        points: list[dict[str, dict[str, float]]] = [{} for _ in range(len(self.measured))]
-        for kind, array in self._actuation(setting).items():
-            members = self.robot.tendons if kind in TENDONS else self.robot.tubes
-            for j, member in enumerate(members):
-                if member.name in getattr(self.measured, kind):
-                    for point, value in zip(points, array[:, j], strict=True):
-                        point.setdefault(kind, {})[member.name] = float(value)
-        return points
 
     def _seen(self, shapes: list[Shape | None], setting: Setting) -> np.ndarray:
         found = np.full(self.measured.points.shape, np.nan)

@@ -56,7 +56,7 @@ class Actuators:
     @cached_property
     def flat(self) -> list[float]:
         """All numbers; 0 where there is none."""
-        return np.nan_to_num(np.concatenate(self._all())).tolist()
+        return [0.0 if x != x else x for values in self._all() for x in values.tolist()]
 
     def distance(self, other: Actuators) -> float:
         """Of all numbers as they are, whatever their units: to compare ways of one kind."""

@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from tactr import _core
 from tactr.errors import RobotError
 from tactr.friction.actuators import Actuators, Plays
 from tactr.friction.driven import Driven
-from tactr.friction.equilibrium import Equilibrium, Settled
+from tactr.friction.equilibrium import Equilibrium, Limits, Settled
 from tactr.friction.plain import plain_shape
 from tactr.friction.profile import Profile
 from tactr.friction.profiles import GivenProfiles
@@ -21,14 +20,12 @@ from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
 from tactr.robot.friction import rubs
 from tactr.statics.path import Path, path_points
-from tactr.statics.pulls import Pulled, is_stable
+from tactr.statics.pulls import Pulled
 from tactr.statics.rest import pulls_from
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared
-from tactr.statics.stability import is_stable_at_tensions, stability_of
 
-LONGEST_TURN = 0.3  # rad at the free end, in one step
-MOST_MISSED = 1e-4  # of log tension, of what smaller steps would have seen
+LIMITS = Limits(missed=1e-4, turn=0.3)
 SHORTEST_STEP = 1.0 / 32  # of the way between two points
 CAREFUL = 0.9  # of the longest step
 STRETCH = 0.2  # of a step, by which those on a way may be longer to come out even
@@ -170,8 +167,6 @@ class _Driver:
             near, halves, snaps = self._near, step > (1.0 + 2.0 * STRETCH) * SHORTEST_STEP, False
             assert near is not None
             settled, missed = self._settle(ahead, state, cold=False, halves=halves)
-            if settled is not None and halves and not self._is_fine(near, settled):
-                settled, missed = None, 0.0
             if settled is None:
                 if halves:
                     step *= min(0.5, max(0.1, _of_step(missed)))
@@ -181,8 +176,7 @@ class _Driver:
                     self._near = None
                     return state, 0
             if self._equilibrium.channels:
-                lost, crept = _core.friction_heat(self._equilibrium.rows, near.found, settled.found)
-                for c, (loss, slip) in enumerate(zip(lost.tolist(), crept.tolist(), strict=True)):
+                for c, (loss, slip) in enumerate(zip(*self._equilibrium.spent(near, settled), strict=True)):
                     heats[c] += loss
                     creeps[c] = max(creeps[c], slip)
             if settled.tubes is not None:
@@ -232,25 +226,9 @@ class _Driver:
             near.solution,
             past=self._past,
             stay=True,
-            most_missed=MOST_MISSED if halves else None,
+            limits=LIMITS if halves else None,
             tubes=state.rubbing,
         )
-
-    def _is_fine(self, a: Settled, b: Settled) -> bool:
-        """Whether the way from a to b is short enough for one step, and b as stable as a."""
-        return self._turn(a, b) <= LONGEST_TURN and (self._stable(b) or not self._stable(a))
-
-    @staticmethod
-    def _stable(settled: Settled) -> bool:
-        if settled.pulled is not None:
-            return is_stable(settled.core, settled.pulled.pulls, settled.solution)
-        stable = is_stable_at_tensions(settled.core, settled.solution)
-        if stable or not settled.held:
-            return stable
-        return len(stability_of(settled.core, settled.solution).conjugate_points) <= settled.held
-
-    def _turn(self, a: Settled, b: Settled) -> float:
-        return _core.free_end_distance(self._prepared._core, a.solution, b.solution)
 
     def _shape(self, state: DriveState, good: bool, point: Actuators, elapsed: float) -> Shape:
         prepared, near = self._prepared, self._near
@@ -292,4 +270,4 @@ class _Driver:
 
 def _of_step(missed: float) -> float:
     """How much longer a step may be than one that missed so much of its history; inf: not known."""
-    return CAREFUL * sqrt(MOST_MISSED / missed) if missed > 0.0 else inf
+    return CAREFUL * sqrt(LIMITS.missed / missed) if missed > 0.0 else inf

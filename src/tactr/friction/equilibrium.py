@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,11 +25,20 @@ from tactr.robot import Robot
 from tactr.statics._complementary import complementary_tension
 from tactr.statics.assemble import tables
 from tactr.statics.parameters import WHOLE_NUMBERS
-from tactr.statics.pulls import Pulled, Pulls
+from tactr.statics.pulls import Pulled, Pulls, is_stable
 from tactr.statics.solve import Prepared
+from tactr.statics.stability import is_stable_at_tensions, stability_of
 
 MOST_ROUNDS = 30
 AIM_SHARE = 0.1  # of what may be missing in a displacement
+
+
+class Limits(NamedTuple):
+    """Of a step that may be made shorter. missed: of log tension, of what smaller steps would have seen;
+    turn: of the free end, rad."""
+
+    missed: float
+    turn: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +47,8 @@ class Settled:
 
     found: the kernel's, which holds the robot with its profiles and the torques between tubes; passed: what
     the actuators' plays passed on; pulled: of the tendons pulled by displacements, if there are any; tubes:
-    where they rub, None without; held: in how many directions of falling energy they hold the robot.
+    where they rub, None without; held: in how many directions of falling energy they hold the robot; spent:
+    heat, J, and creep, m, of the step that led here, by channel, where the kernel made it.
     """
 
     found: _core.FrictionSettled
@@ -45,6 +56,7 @@ class Settled:
     pulled: Pulled | None = None
     tubes: TubeFrictionState | None = None
     held: int = 0
+    spent: tuple[list[float], list[float]] | None = None
 
     @property
     def core(self) -> _core.PreparedRobot:
@@ -68,6 +80,7 @@ class Equilibrium:
         self.rows = _core.FrictionChannels([c.row for c in self.channels])
         self.tube_step = TubeFrictionStep(robot, prepared.tolerance, prepared.residual_tolerance)
         self._tubes_rub = self.tube_step.rubs
+        self._tolerances = prepared.tolerance, prepared.residual_tolerance
 
     @cached_property
     def _still(self) -> _core.PreparedRobot:
@@ -83,32 +96,63 @@ class Equilibrium:
         *,
         past: Sequence[Settled] = (),
         stay: bool,
-        most_missed: float | None = None,
+        limits: Limits | None = None,
         tubes: TubeFrictionState | None = None,
     ) -> tuple[Settled | None, float]:
         """From profiles before, and where tubes rubbed, at what the plays pass on, near what was found
-        before, or from a shape without friction. past: what was found before that, the latest first.
-        most_missed: of log tension, of what smaller steps would have seen since near; that is the second of
-        what is returned, 0 where it was not looked at. None: not found, or more was missed."""
+        before, or from a shape without friction. past: what was found before that, the latest first. limits:
+        None where a step must be taken as it is. The second of what is returned is what was missed, 0 where
+        it was not looked at. None: not found, or not in one step."""
+        if near is not None and pulls is None and not self._tubes_rub:
+            return self._step(old, passed, near, past, limits)
         prepared = self._prepared
         arrays = passed.tension, passed.rotation, passed.translation
+        rows = old.rows(self._index)
         rounds = _core.FrictionRounds(
-            prepared._core, self.rows, old.rows(self._index), arrays[2], prepared.residual_tolerance
+            prepared._core, self.rows, rows, passed.flat, arrays[2], prepared.residual_tolerance
         )
         if near is None:
             rounds.start_plain(solution)
         else:
-            rounds.start_near(near.found, _places(past, near, passed))
+            rounds.start_near(near.found, [settled.found for settled in past])
         if pulls is None and not self._tubes_rub:
-            tolerances = prepared.tolerance, prepared.residual_tolerance
-            limit = (None, 0.0) if near is None or most_missed is None else (near.found, most_missed)
-            found = rounds.run(*arrays, *tolerances, solution, stay, *limit)
-            return None if found is None else Settled(found, passed), rounds.history_missed
+            found = rounds.run(*arrays, *self._tolerances, solution, stay)
+            return None if found is None else Settled(found, passed), 0.0
         settled = _Rounds(self, rounds, passed, pulls, stay, tubes).run(solution)
-        if settled is None or near is None or most_missed is None:
+        if settled is None or near is None or limits is None:
             return settled, 0.0
-        missed = _core.friction_history_missed(self.rows, near.found, settled.found)
-        return settled if missed <= most_missed else None, missed
+        missed = _core.friction_history_missed(self.rows, near.found, settled.found, limits.missed)
+        if missed > limits.missed:
+            return None, missed
+        return (settled, missed) if self._goes_on(near, settled, limits.turn) else (None, 0.0)
+
+    def _step(
+        self, old: Profiles, passed: Actuators, near: Settled, past: Sequence[Settled], limits: Limits | None
+    ) -> tuple[Settled | None, float]:
+        """Where tensions are given and no tubes rub: all of it in the kernel."""
+        found, missed, *spent = _core.tendon_friction_step(
+            self._prepared._core,
+            self.rows,
+            old.rows(self._index),
+            near.found,
+            [settled.found for settled in past],
+            passed.flat,
+            passed.tension,
+            passed.rotation,
+            passed.translation,
+            *self._tolerances,
+            limits,
+        )
+        return None if found is None else Settled(found, passed, spent=(spent[0], spent[1])), missed
+
+    def _goes_on(self, a: Settled, b: Settled, most: float) -> bool:
+        """Whether the way from a to b is short enough for one step, and b as stable as a."""
+        turn = _core.free_end_distance(self._prepared._core, a.solution, b.solution)
+        return turn <= most and (_stable(b) or not _stable(a))
+
+    def spent(self, near: Settled, settled: Settled) -> tuple[list[float], list[float]]:
+        """Heat and creep of the step from one to the next, by channel."""
+        return settled.spent or _core.friction_heat(self.rows, near.found, settled.found)
 
     def profiles(self, settled: Settled) -> FoundProfiles:
         """What an equilibrium leaves behind."""
@@ -196,26 +240,13 @@ class _Rounds:
         return np.diag(pulls.compliance) - found[6 + pulls.index][:, columns]
 
 
-def _places(
-    past: Sequence[Settled], near: Settled, to: Actuators
-) -> list[tuple[_core.FrictionSettled, float]]:
-    """Where those in the past are on the straight way from near, at 0, to what is passed on, at 1, as far
-    back as they lie on it; none where the last step was much shorter than this one."""
-    start = near.passed.flat
-    step = [b - a for a, b in zip(start, to.flat, strict=True)]
-    length = sum(x * x for x in step)
-    places: list[tuple[_core.FrictionSettled, float]] = []
-    for settled in past:
-        back = [b - a for a, b in zip(settled.passed.flat, start, strict=True)]
-        along, square = sum(x * y for x, y in zip(back, step, strict=True)), sum(x * x for x in back)
-        if (
-            along <= 0.0
-            or along * along <= 0.999 * square * length
-            or (not places and length >= 4.0 * square)
-        ):
-            break
-        places.append((settled.found, -along / length))
-    return places
+def _stable(settled: Settled) -> bool:
+    if settled.pulled is not None:
+        return is_stable(settled.core, settled.pulled.pulls, settled.solution)
+    stable = is_stable_at_tensions(settled.core, settled.solution)
+    if stable or not settled.held:
+        return stable
+    return len(stability_of(settled.core, settled.solution).conjugate_points) <= settled.held
 
 
 def _without_rates(robot: Robot) -> _core.PreparedRobot:

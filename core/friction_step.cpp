@@ -1,0 +1,39 @@
+#include "friction_step.hpp"
+
+#include "free_end.hpp"
+#include "solve.hpp"
+#include "starts.hpp"
+
+namespace tactr {
+
+bool is_stable(const FrictionSettled& settled) {
+    if (!settled.stable) {
+        StabilityReport report;
+        settled.stable = stability_of(settled.robot.view(), settled.solution, 0, report) && report.stable;
+    }
+    return *settled.stable;
+}
+
+namespace {
+
+bool goes_on(const FrictionSettled& near, const FrictionSettled& next, double turn) {
+    return free_end_distance(near.robot.view(), near.solution, next.solution) <= turn && (is_stable(next) || !is_stable(near));
+}
+
+}  // namespace
+
+bool friction_step(FrictionRounds& rounds, const std::vector<FrictionChannel>& channels, const FrictionSettled& near,
+                   const std::vector<const FrictionSettled*>& past, const Settings& settings, const Solution& blank,
+                   const StepLimits* limits, FrictionSettled& out, FrictionSpent& spent) {
+    rounds.start(near, past);
+    const HistoryLimit history{limits ? &near : nullptr, limits ? limits->missed : 0.0};
+    if (!rounds.run(settings, blank, near.solution, history, out)) return false;
+    if (limits && !goes_on(near, out, limits->turn)) {
+        rounds.history_missed = 0.0;
+        return false;
+    }
+    friction_heat(channels, near, out, spent.heat, spent.creep);
+    return true;
+}
+
+}  // namespace tactr
