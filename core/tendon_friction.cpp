@@ -295,16 +295,25 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
     return false;
 }
 
+/// Without unknowns, a neighbour's mesh is all that is asked for.
+bool FrictionRounds::lead(NewtonSolver& newton, const Solution& from, const FreeEnd<double>* ahead, Solution& near) {
+    if (newton.shooting.unknowns > 0) return newton.lead(from, near, ahead);
+    return newton.take_over(from, near) || newton.carry_over(from, near);
+}
+
 bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution& near) {
     const int unknowns = newton.shooting.unknowns;
     if (from) {
-        const bool led = unknowns == 0 ? newton.take_over(*from, near) : newton.lead(*from, near, ahead_ ? &*ahead_ : nullptr);
-        if (!led) return false;
+        if (!lead(newton, *from, ahead_ ? &*ahead_ : nullptr, near)) return false;
     } else {
-        if (near.mesh.steps.size() != newton.layout.sections.size()) return false;
         const FreeEnd<double> before = near.free_end;
         newton.shooting.move(before, step_.data(), 1.0, near.free_end);
-        if (unknowns > 0 && missed > LITTLE * precision_ && !newton.step_by_derivatives(near)) return false;
+        if (near.mesh.steps.size() != newton.layout.sections.size()) {  // a front has come or gone
+            const Solution last = near;
+            if (!lead(newton, last, &last.free_end, near)) return false;
+        } else if (unknowns > 0 && missed > LITTLE * precision_ && !newton.step_by_derivatives(near)) {
+            return false;
+        }
         if (newton.shooting.distance(before, near.free_end) > Stride::CLOSE) return false;
     }
     if (!WrapReader(channels_, joints_).read(newton, near, after_)) return false;

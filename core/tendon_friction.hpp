@@ -77,6 +77,8 @@ class FrictionRounds {
     /// march, after one with derivatives where it starts from a neighbour. False: that is too far.
     bool glance(NewtonSolver& newton, const Solution* from, Solution& near);
 
+    static bool lead(NewtonSolver& newton, const Solution& from, const FreeEnd<double>* ahead, Solution& near);
+
     /// Wraps to go on with, and others from those of this round and those to go on with.
     void mix(std::vector<double>& others, const std::vector<double>& next);
 
