@@ -275,13 +275,18 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
         };
         const bool seen = !channels_.empty() && glance(newton, from, near);
         if (seen && too_long()) return false;
-        if (!seen || (rigid && missed <= aim)) {
+        if (!seen) {
             Solution found = blank;
-            solve(view, actuation, settings, seen ? &near : &guess, found);
+            solve(view, actuation, settings, &guess, found);
             if (found.status != Status::converged) return false;
-            const bool known = seen && found.mesh.steps == near.mesh.steps && found.mesh.grade == near.mesh.grade;
             near = std::move(found);
             step_.assign(newton.shooting.unknowns, 0.0);
+            if (!measure(robot, near) || too_long()) return false;
+        } else if (rigid && missed <= aim) {  // what its steps err is yet to be known
+            const auto steps = near.mesh.steps;
+            const auto grade = near.mesh.grade;
+            if (!newton.polish(near)) return false;
+            const bool known = near.mesh.steps == steps && near.mesh.grade == grade;
             if (!known && (!measure(robot, near) || too_long())) return false;
         }
         from = nullptr;
