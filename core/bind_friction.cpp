@@ -190,15 +190,15 @@ void bind_friction(nb::module_& m) {
         .def("measure", &FrictionRounds::measure, "robot"_a, "solution"_a, "Reads the wraps in the round's shape; whether it could.")
         .def("mix", [](FrictionRounds& r, const Vector& tension, const Vector& next) {
                  std::vector<double> mixed = doubles_of(tension);
-                 r.mix(mixed, doubles_of(next, mixed.size(), "next"));
+                 r.mix_pulls(mixed, doubles_of(next, mixed.size(), "next"));
                  const size_t count = mixed.size();
                  return array_of(std::move(mixed), {count});
              }, "tension"_a, "next"_a, "Wraps and tensions to go on with.")
         .def("rates", &FrictionRounds::rates, "still"_a, "channel"_a, "tension"_a, "all"_a)
         .def("slack", [](const FrictionRounds& r, size_t channel) { return !r.profiles.at(channel).has_value(); }, "channel"_a)
-        .def("settled", [](const FrictionRounds& r, const PreparedRobot& robot, const Solution& solution) {
+        .def("settled", [](FrictionRounds& r, PreparedRobot robot, Solution solution) {
                  auto out = std::make_unique<FrictionSettled>();
-                 r.settle(robot, solution, *out);
+                 r.settle(std::move(robot), std::move(solution), *out);
                  return out;
              }, "robot"_a, "solution"_a)
         .def("run", &run, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a, "residual_tolerance"_a, "guess"_a, "stay"_a,

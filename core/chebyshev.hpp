@@ -18,6 +18,7 @@ class ChebyshevRules {
   public:
     using Matrix = std::array<PointValues, CURVE_POINTS>;
     PointValues point, weight;          // ascending; of the integral over [-1, 1]
+    PointValues first{}, last{};        // of the value at -1 and at 1
     Matrix fit, slope, integral, upto;  // to coefficients, slopes at the points, coefficients and values of the integral from -1
     Matrix powers;                      // from coefficients to those of powers of (x + 1) / 2
 
@@ -48,6 +49,10 @@ class ChebyshevRules {
             for (int p = 0; p < N; ++p) fit[k][p] = (k == 0 ? 1.0 : 2.0) / N * T[p][k];
         weight = PointValues{};
         for (int p = 0; p < N; ++p) {
+            for (int k = 0; k < N; ++k) {
+                first[p] += (k % 2 == 0 ? 1.0 : -1.0) * fit[k][p];
+                last[p] += fit[k][p];
+            }
             for (int k = 0; k < N; k += 2) weight[p] += 2.0 / (1.0 - k * k) * fit[k][p];
             for (int q = 0; q < N; ++q) {
                 slope[q][p] = 0.0;
@@ -108,6 +113,13 @@ struct Curve {
     }
 
     double at(double sigma) const { return on(piece(sigma), sigma); }
+
+    /// Whether a piece is the same all along.
+    bool is_even(int k) const {
+        for (int i = 1; i < CURVE_POINTS; ++i)
+            if (coefficients[k][i] != 0.0) return false;
+        return true;
+    }
 
     static Curve constant(double value, double end) {
         Curve curve{{0.0, end}, {PointValues{}}};

@@ -18,6 +18,12 @@ struct Falls {
         for (size_t k = 0; k < along.size() && profile; ++k) {
             const double start = edges[k], end = edges[k + 1];
             const int piece = profile->log.piece(0.5 * (start + end));
+            if (profile->log.is_even(piece)) {
+                const double even = std::exp(profile->log.coefficients[piece][0]);
+                if (k > 0) at_edges[k] = before - even;
+                before = even;
+                continue;
+            }
             PointValues tension = points_between(start, end);
             for (double& x : tension) x = std::exp(profile->log.on(piece, x));
             along[k] = ChebyshevRules::times(ChebyshevRules::get().slope, tension);

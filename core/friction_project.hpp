@@ -93,6 +93,7 @@ class FrictionWalk {
 
     double slide(double a, double b, int way) {
         begin(a, way);
+        if (old_.is_even(old_piece_) && wrap_.rise.is_even(rise_piece_)) return b;
         const double y = y_, start = rise(a);
         const auto beyond = [&](double s) { return way * (kept(s) - (y + way * (rise(s) - start))); };
         for (int i = 1; i < LOOKS; ++i) {
@@ -113,6 +114,7 @@ class FrictionWalk {
 
     /// Up to b, or to where the old profile falls or rises faster than friction holds.
     double stay(double a, double b) {
+        if (old_.is_even(old_piece_)) return hold(a, b);
         double y[LOOKS], phi[LOOKS];
         for (int i = 0; i < LOOKS; ++i) {
             y[i] = kept(look(a, b, i));
@@ -126,6 +128,10 @@ class FrictionWalk {
                 if (g - lowest > most_beyond_) return leave(a, b, way, least);
             }
         }
+        return hold(a, b);
+    }
+
+    double hold(double a, double b) {
         driven_ = false;
         begin(a, 0);
         y_ = kept(b);
@@ -237,9 +243,11 @@ class FrictionWalk {
     }
 
     PointValues piece(const Run& run, double a, double b) const {
+        if (run.slide != 0 && wrap_.straight) return Curve::constant(run.y, b).coefficients[0];
         PointValues y = points_between(a, b);
         if (run.slide == 0) {
             const int k = old_.piece(0.5 * (a + b));
+            if (old_.is_even(k) || (old_.edges[k] == a && old_.edges[k + 1] == b)) return old_.coefficients[k];
             for (double& at : y) at = old_.on(k, at);
         } else {
             const double base = wrap_.rise.on(wrap_.rise.piece(run.start + 1e-12), run.start);

@@ -255,9 +255,9 @@ class WrapReader {
     /// Direction of a panel at its proximal or distal end.
     Triple at_end(size_t panel, bool distal) const {
         Triple out{};
-        for (int k = 0; k < CURVE_POINTS; ++k)
-            for (int p = 0; p < CURVE_POINTS; ++p)
-                for (int a = 0; a < 3; ++a) out[a] += (distal || k % 2 == 0 ? 1.0 : -1.0) * rules_.fit[k][p] * directions_[panel][p][a];
+        const PointValues& weight = distal ? rules_.last : rules_.first;
+        for (int p = 0; p < CURVE_POINTS; ++p)
+            for (int a = 0; a < 3; ++a) out[a] += weight[p] * directions_[panel][p][a];
         return out;
     }
 

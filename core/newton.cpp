@@ -30,6 +30,7 @@ void NewtonSolver::read_tip(Solution& solution, const M& march, const FreeEnd<T>
     solution.length_error = 0.0;
     for (double error_here : length_error_) solution.length_error += ERROR_SAFETY * error_here;
     solution.tendon_length = march.tendon_length;
+    note_excess(solution);
 }
 
 template <int K>

@@ -51,10 +51,11 @@ class NewtonSolver {
                static_cast<int>(guess.rotation.size()) == robot.tube_count;
     }
 
-    /// Takes over a neighbour's free end, mesh and derivatives. False: it is no neighbour.
-    bool start_from(const Solution& guess, Solution& solution) {
+    /// Takes over a neighbour's free end, mesh and derivatives; ahead: where the free end is thought to be. False: it is no
+    /// neighbour.
+    bool start_from(const Solution& guess, Solution& solution, const FreeEnd<double>* ahead = nullptr) {
         if (!take_over(guess, solution)) return false;
-        if (shooting.unknowns > 0) approach(guess, solution);
+        go_near(guess, ahead, solution);
         return true;
     }
 
@@ -70,22 +71,18 @@ class NewtonSolver {
 
     /// From a neighbour's free end and derivatives where the robot is now cut into other sections: a tube's end has passed
     /// another's, a tendon's tension changes its course elsewhere. They go on smoothly there, only the mesh does not fit:
-    /// steps are as long as the longest of the neighbour's; where there are fewer sections than before, they are looked for
-    /// anew, for what asked for short ones may have gone. False: it is no neighbour.
-    bool carry_over(const Solution& guess, Solution& solution) {
+    /// steps are as long as the longest of the neighbour's, or as its errors allow. ahead as above. False: it is no neighbour.
+    bool carry_over(const Solution& guess, Solution& solution, const FreeEnd<double>* ahead = nullptr) {
         if (!is_neighbour(guess) || settings.fixed_steps > 0 || guess.mesh.edges.size() != guess.mesh.steps.size() + 1) return false;
         solution.free_end = guess.free_end;
         std::copy(&guess.jacobian[0][0], &guess.jacobian[0][0] + MAX_UNKNOWNS * MAX_UNKNOWNS, &solution.jacobian[0][0]);
         cut_mesh(solution);
-        const bool fewer = layout.sections.size() < guess.mesh.steps.size();
-        for (size_t k = 0; k < layout.sections.size() && !fewer; ++k) {
-            const double longest = guess.mesh.longest_step(layout.sections[k].proximal, layout.sections[k].distal);
-            if (!(longest > 0.0)) continue;
-            const double share = (layout.sections[k].distal - layout.sections[k].proximal) / longest;
-            solution.mesh.steps[k] = std::clamp(static_cast<int>(std::lround(share)), solution.mesh.steps[k], March<double, double>::MAX_STEPS);
+        for (size_t k = 0; k < layout.sections.size(); ++k) {
+            const int needed = guess.mesh.steps_needed(layout.sections[k].proximal, layout.sections[k].distal);
+            solution.mesh.steps[k] = std::clamp(needed, solution.mesh.steps[k], March<double, double>::MAX_STEPS);
         }
         solution.mesh.fit();
-        if (shooting.unknowns > 0) approach(guess, solution);
+        go_near(guess, ahead, solution);
         return true;
     }
 
@@ -95,6 +92,21 @@ class NewtonSolver {
         for (const auto& section : layout.sections) edges.push_back(section.distal);
     }
 
+    /// From a neighbour to a free end that a check is to follow at: one march with derivatives, and a step by these. False: no
+    /// neighbour, or too far from one, or too coarse a mesh.
+    bool lead(const Solution& guess, Solution& solution, const FreeEnd<double>* ahead) {
+        if (!start_from(guess, solution, ahead) && !carry_over(guess, solution, ahead)) return false;
+        for (int more = MOST_REFINED;; --more) {
+            if (!evaluate(solution, Kind::draft) || !(solution.base_residual < Stride::CLOSE)) return false;
+            if (is_fine(solution)) break;
+            if (more == 0 || !refine(solution, allowed_error(solution))) return false;
+        }
+        double missed[MAX_UNKNOWNS];
+        std::copy(residual, residual + shooting.unknowns, missed);
+        step_with_neighbour(missed, solution);
+        return true;
+    }
+
     /// By the derivatives that the solution has to where they meet the base. False: a section had no equilibrium.
     bool step_by_derivatives(Solution& solution) {
         if (!evaluate(solution, Kind::check)) return false;
@@ -102,6 +114,16 @@ class NewtonSolver {
         std::copy(residual, residual + shooting.unknowns, missed);
         step_with_neighbour(missed, solution);
         return true;
+    }
+
+    /// The step that the solution's derivatives ask for at the last residual. False: there is none.
+    bool chord(const Solution& solution, double (&step)[MAX_UNKNOWNS]) const {
+        double A[MAX_UNKNOWNS][MAX_UNKNOWNS];
+        for (int i = 0; i < shooting.unknowns; ++i) {
+            step[i] = -residual[i];
+            for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
+        }
+        return solve_dense(shooting.unknowns, A, step) != 0.0;
     }
 
     /// A check, its steps seen by an observer. False: a section had no equilibrium.
@@ -183,12 +205,8 @@ class NewtonSolver {
                 continue;
             }
             if (solution.steps_marched > settings.max_steps) break;
-            double A[MAX_UNKNOWNS][MAX_UNKNOWNS], step[MAX_UNKNOWNS];
-            for (int i = 0; i < shooting.unknowns; ++i) {
-                step[i] = -residual[i];
-                for (int j = 0; j < shooting.unknowns; ++j) A[i][j] = solution.jacobian[i][j];
-            }
-            if (solve_dense(shooting.unknowns, A, step) == 0.0) break;
+            double step[MAX_UNKNOWNS];
+            if (!chord(solution, step)) break;
             if (strides > 0 && Stride::is_due(shooting.unknowns, step, norm(step), residual, size)) {
                 --strides;
                 shooting.move(FreeEnd<double>(solution.free_end), residual, -Stride::LENGTH / size, solution.free_end);
@@ -261,6 +279,11 @@ class NewtonSolver {
         solution.mesh.marched = solution.free_end;
     }
 
+    void go_near(const Solution& guess, const FreeEnd<double>* ahead, Solution& solution) {
+        if (ahead) solution.free_end = *ahead;
+        else if (shooting.unknowns > 0) approach(guess, solution);
+    }
+
     /// Steps with the neighbour's derivatives: for the change of the rotations, which needs no march, then for what one
     /// rough march without derivatives still misses.
     void approach(const Solution& guess, Solution& solution);
@@ -329,11 +352,12 @@ class NewtonSolver {
     /// single step fell short of the error by a factor of up to 20, in sections that seemed to matter little, too.
     double allowed_error(const Solution& solution) const {
         for (size_t k = 0; k < section_error_.size(); ++k)
-            if (is_doubtful(solution, k)) return (shooting.loaded ? 0.03 : SINGLE_STEP_SHARE) * settings.tolerance;
+            if (is_doubtful(solution, k)) return (shooting.loaded ? LOADED_SHARE : SINGLE_STEP_SHARE) * settings.tolerance;
         return settings.tolerance;
     }
 
-    static constexpr double SINGLE_STEP_SHARE = 0.15;
+    static constexpr double SINGLE_STEP_SHARE = 0.15, LOADED_SHARE = 0.03;
+    static constexpr int MOST_REFINED = 2;  // times, before a neighbour leads nowhere
 
     bool is_doubtful(const Solution& solution, size_t k) const {
         const double largest = *std::max_element(section_error_.begin(), section_error_.end());
@@ -343,15 +367,10 @@ class NewtonSolver {
     /// More steps, or better graded ones, where the error comes from: as many as an eighth-order rule needs to bring the
     /// tip and the tendons' lengths below tolerance.
     bool refine(Solution& solution, double allowed) {
-        const auto share = [](const std::vector<double>& errors, size_t k, double sum) {
-            const double largest = *std::max_element(errors.begin(), errors.end());
-            return largest > 0.0 ? sum * errors[k] / largest : 0.0;
-        };
         const double relief = allowed / larger(allowed, SINGLE_STEP_SHARE * settings.tolerance);  // two steps are trusted again
         bool finer = false;
         for (size_t k = 0; k < section_error_.size(); ++k) {
-            const double excess = larger(share(section_error_, k, solution.discretisation_error / (0.5 * allowed)),
-                                         share(length_error_, k, solution.length_error / (0.5 * settings.tolerance)));
+            const double excess = excess_of(solution, k, allowed);
             const bool doubtful = allowed < settings.tolerance && is_doubtful(solution, k);
             if (!(excess > 0.5) && !doubtful) continue;
             const int most = March<double, double>::MAX_STEPS, now = solution.mesh.steps[k];
@@ -366,6 +385,22 @@ class NewtonSolver {
         }
         solution.mesh.fit();
         return finer;
+    }
+
+    /// A section's error over what it may be.
+    double excess_of(const Solution& solution, size_t k, double allowed) const {
+        const auto share = [k](const std::vector<double>& errors, double sum) {
+            const double largest = *std::max_element(errors.begin(), errors.end());
+            return largest > 0.0 ? sum * errors[k] / largest : 0.0;
+        };
+        return larger(share(section_error_, solution.discretisation_error / (0.5 * allowed)),
+                      share(length_error_, solution.length_error / (0.5 * settings.tolerance)));
+    }
+
+    void note_excess(Solution& solution) const {
+        const double allowed = (shooting.loaded ? LOADED_SHARE : SINGLE_STEP_SHARE) * settings.tolerance;
+        solution.mesh.excess.resize(section_error_.size());
+        for (size_t k = 0; k < section_error_.size(); ++k) solution.mesh.excess[k] = excess_of(solution, k, allowed);
     }
 
     /// Share of a section's error that would be left with another grade, its density changing geometrically along it.

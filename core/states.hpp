@@ -56,6 +56,7 @@ struct Mesh {
     std::vector<int> steps;
     std::vector<double> grade;   // per section, length of a step over that of the one before, from the tip on; empty: 1
     std::vector<double> edges;   // s of the sections' ends in a solution, from the base on; empty: not known
+    std::vector<double> excess;  // per section, its error over what it may be at the most; empty: not known
     std::vector<Strains> strains;
     std::vector<double> slopes;  // stage-major, unknowns innermost
     int unknowns = 0;            // 0: no slopes
@@ -86,13 +87,20 @@ struct Mesh {
         return std::pow(larger(1.0 / MOST, smaller(MOST, span)), 1.0 / (n - 1));
     }
 
-    /// Of all sections that reach between two places; 0: none does.
-    double longest_step(double from, double to) const {
+    /// Steps between two places by what sections there had: as long as the longest of their steps, or longer where an
+    /// eighth-order rule may still err less than it may. 1 where there were none.
+    int steps_needed(double from, double to) const {
         constexpr double SPECK = 1e-9;  // m
-        double longest = 0.0;
-        for (size_t k = 0; k < steps.size(); ++k)
-            if (edges[k] < to - SPECK && edges[k + 1] > from + SPECK) longest = larger(longest, (edges[k + 1] - edges[k]) / steps[k]);
-        return longest;
+        const bool known = excess.size() == steps.size();
+        double longest = 0.0, rate = 0.0;
+        for (size_t k = 0; k < steps.size(); ++k) {
+            const double shared = smaller(edges[k + 1], to) - larger(edges[k], from), length = edges[k + 1] - edges[k];
+            if (!(shared > SPECK)) continue;
+            longest = larger(longest, length / steps[k]);
+            if (known) rate += excess[k] * shared / length * std::pow(steps[k] * (to - from) / length, 8.0);
+        }
+        const double by_length = longest > 0.0 ? std::round((to - from) / longest) : 1.0;
+        return static_cast<int>(!known ? by_length : smaller(by_length, std::ceil(std::pow(rate, 0.125))));
     }
 
     int total() const {

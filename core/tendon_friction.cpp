@@ -12,7 +12,8 @@ namespace tactr {
 namespace {
 
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
-constexpr int LOOKING = 2;            // rounds after each of which is seen whether a step is too long
+constexpr double LOOK_BELOW = 0.2;    // of the limit, missed: from here on it is seen whether a step is too long
+constexpr double LITTLE = 10.0;        // of the precision, missed: the free end is where the last march said, but for what it forgives
 constexpr double MOST_MIXED = 20.0;   // weight of a pair
 constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
 
@@ -21,6 +22,10 @@ void add_pieces(const FrictionProfile& profile, double y0, std::vector<TensionPi
     const ChebyshevRules& rules = ChebyshevRules::get();
     const auto& edges = profile.log.edges;
     for (size_t k = 0; k + 1 < edges.size(); ++k) {
+        if (profile.log.is_even(static_cast<int>(k))) {
+            out.push_back({edges[k], 1, {std::exp(profile.log.coefficients[k][0] - y0)}});
+            continue;
+        }
         PointValues values;
         const PointValues places = points_between(edges[k], edges[k + 1]);
         for (int p = 0; p < CURVE_POINTS; ++p) values[p] = std::exp(profile.log.on(static_cast<int>(k), places[p]) - y0);
@@ -90,10 +95,38 @@ std::vector<double> places_before(const std::vector<double>& from, const std::ve
     return places;
 }
 
+/// Shares at place 1 of what was found at places 0 and before: the polynomial through them.
+std::vector<double> carrying_on(std::vector<double> places) {
+    places.insert(places.begin(), 0.0);
+    std::vector<double> share(places.size(), 1.0);
+    for (size_t k = 0; k < places.size(); ++k)
+        for (size_t j = 0; j < places.size(); ++j)
+            if (j != k) share[k] *= (1.0 - places[j]) / (places[k] - places[j]);
+    return share;
+}
+
 std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
     std::vector<double> out(a.size());
     for (size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
     return out;
+}
+
+/// numbers: at the points between joints.
+void add_rises(const std::vector<double>& joints, const double* numbers, Curve& rise) {
+    const ChebyshevRules& rules = ChebyshevRules::get();
+    Curve correction{joints, {}};
+    for (size_t k = 0; k + 1 < joints.size(); ++k, numbers += CURVE_POINTS) {
+        PointValues values;
+        std::copy(numbers, numbers + CURVE_POINTS, values.begin());
+        correction.coefficients.push_back(ChebyshevRules::times(rules.fit, values));
+    }
+    for (size_t k = 0; k < rise.coefficients.size(); ++k) {
+        PointValues values = points_between(rise.edges[k], rise.edges[k + 1]);
+        const int piece = correction.piece(0.5 * (rise.edges[k] + rise.edges[k + 1]));
+        for (double& x : values) x = correction.on(piece, x);
+        values = ChebyshevRules::times(rules.fit, values);
+        for (int i = 0; i < CURVE_POINTS; ++i) rise.coefficients[k][i] += values[i];
+    }
 }
 
 }  // namespace
@@ -117,27 +150,23 @@ void FrictionRounds::start(const FrictionSettled& near, const std::vector<const 
     std::vector<double> now;
     numbers_of(wraps_, now);
     for (const RoundsPair& pair : near.pairs)
-        if (pair.missed.size() == now.size() && static_cast<int>(pairs_.size()) < MOST_PAIRS) pairs_.push_back(pair);
-    std::vector<double> places = places_before(near.at, at_, past);
-    if (places.empty()) return;
-    // Newton's divided differences of the places 0, before...
-    std::vector<std::vector<double>> slopes{std::move(now)};
-    for (size_t k = 0; k < places.size(); ++k) {
-        slopes.emplace_back();
-        numbers_of(past[k]->wraps, slopes.back());
-    }
-    places.insert(places.begin(), 0.0);
-    for (size_t order = 1; order < slopes.size(); ++order)
-        for (size_t k = slopes.size(); k-- > order;)
-            for (size_t i = 0; i < slopes[k].size(); ++i)
-                slopes[k][i] = (slopes[k][i] - slopes[k - 1][i]) / (places[k] - places[k - order]);
-    std::vector<double> step(slopes[0].size(), 0.0);
-    double product = 1.0;
-    for (size_t order = 1; order < slopes.size(); ++order) {
-        product *= 1.0 - places[order - 1];
-        for (size_t i = 0; i < step.size(); ++i) step[i] += product * slopes[order][i];
+        if (static_cast<int>(pairs_.size()) < MOST_PAIRS) pairs_.push_back(pair);
+    const std::vector<double> share = carrying_on(places_before(near.at, at_, past));
+    if (share.size() < 2) return;
+    std::vector<double> step(now.size(), 0.0), numbers;
+    FreeEnd<double> end{};
+    for (size_t k = 0; k < share.size(); ++k) {
+        const FrictionSettled& from = k == 0 ? near : *past[k - 1];
+        numbers_of(from.wraps, numbers);
+        for (size_t i = 0; i < step.size(); ++i) step[i] += share[k] * (numbers[i] - now[i]);
+        for (int i = 0; i < MAX_TUBES; ++i) end.psi[i] += share[k] * from.solution.free_end.psi[i];
+        for (int c = 0; c < 4; ++c) end.quaternion[c] += share[k] * from.solution.free_end.quaternion[c];
     }
     add(step, wraps_);
+    double size = 0.0;
+    for (double c : end.quaternion) size += c * c;
+    for (double& c : end.quaternion) c /= std::sqrt(size);
+    if (std::fabs(std::sqrt(size) - 1.0) < Stride::CLOSE) ahead_ = end;
 }
 
 void FrictionRounds::profile(const std::vector<double>& tension) {
@@ -185,19 +214,21 @@ bool FrictionRounds::compare() {
     numbers_of(wraps_, own_);
     numbers_of(after_, given_);
     size_t n = 0;
-    for (const auto& joints : joints_) {
+    for (size_t c = 0; c < channels_.size(); ++c) {
+        const auto& joints = joints_[c];
+        const size_t points = channels_[c].over_disks ? 0 : (joints.size() - 1) * CURVE_POINTS;
         double rises = 0.0, jumps = 0.0;
-        for (size_t i = 0; i < (joints.size() - 1) * CURVE_POINTS; ++i, ++n) rises = larger(rises, std::fabs(given_[n] - own_[n]));
+        for (size_t i = 0; i < points; ++i, ++n) rises = larger(rises, std::fabs(given_[n] - own_[n]));
         for (size_t i = 0; i < joints.size(); ++i, ++n) jumps += std::fabs(given_[n] - own_[n]);
         missed = larger(missed, rises + jumps);
     }
     return std::isfinite(missed);
 }
 
-void FrictionRounds::mix(std::vector<double>& tension, const std::vector<double>& next) {
+void FrictionRounds::mix(std::vector<double>& others, const std::vector<double>& next) {
     std::vector<double> gap = difference(given_, own_), given = given_;
     for (size_t j = 0; j < next.size(); ++j) {
-        gap.push_back(next[j] - tension[j]);
+        gap.push_back(next[j] - others[j]);
         given.push_back(next[j]);
     }
     pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), [&](const RoundsPair& pair) { return pair.missed.size() != gap.size(); }),
@@ -212,10 +243,14 @@ void FrictionRounds::mix(std::vector<double>& tension, const std::vector<double>
         for (size_t i = 0; i < correction.size(); ++i) correction[i] -= share[c] * pairs_[c].given[i];
     wraps_ = after_;
     add(correction, wraps_);
-    for (size_t j = 0; j < next.size(); ++j)
-        tension[j] = next[j] == 0.0 ? 0.0 : larger(next[j] + correction[given_.size() + j], 0.0);
+    for (size_t j = 0; j < next.size(); ++j) others[j] = next[j] + correction[given_.size() + j];
     last_missed_ = std::move(gap);
     last_given_ = std::move(given);
+}
+
+void FrictionRounds::mix_pulls(std::vector<double>& tension, const std::vector<double>& next) {
+    mix(tension, next);
+    for (size_t j = 0; j < next.size(); ++j) tension[j] = next[j] == 0.0 ? 0.0 : larger(tension[j], 0.0);
 }
 
 bool FrictionRounds::run(const Settings& settings, const Solution& blank, const Solution& guess, const HistoryLimit& limit,
@@ -223,31 +258,41 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
     const std::vector<double>& tension = blank.tension;
     const Actuation<double> actuation{tension.data(), blank.rotation.data(), blank.translation.data(), 1.0, 1.0};
     const double aim = settings.residual_tolerance;
-    std::optional<FrictionHistory> history;
-    if (limit.near) history.emplace(channels_, *limit.near);
+    bool looked = !limit.near;
     std::vector<double> none;
-    Solution near = guess;
-    bool solved = false;
+    Solution near = blank;
+    const Solution* from = &guess;  // a neighbour; none: the round before
     while (rounds < MOST_ROUNDS) {
         profile(tension);
         const Robot view = robot.view();
-        const Glance seen = channels_.empty() ? Glance::failed : glance(view, actuation, settings, blank, solved, near);
+        NewtonSolver newton(view, actuation, settings);
+        const bool rigid = newton.shooting.unknowns == 0;
         const auto too_long = [&] {  // for all that the wraps may still change
-            if (history && (rounds <= LOOKING || missed <= aim)) history_missed = history->missed(after_, tension, limit.most);
+            if (looked || !(missed <= LOOK_BELOW * limit.most)) return false;
+            looked = true;
+            history_missed = FrictionHistory(channels_, *limit.near).missed(after_, tension, limit.most);
             return history_missed > limit.most + 2.0 * missed;
         };
-        if (seen != Glance::failed && too_long()) return false;
-        if (seen == Glance::failed || (seen == Glance::rigid && missed <= aim)) {
+        const bool seen = !channels_.empty() && glance(newton, from, near);
+        if (seen && too_long()) return false;
+        if (!seen) {
             Solution found = blank;
-            solve(view, actuation, settings, &near, found);
+            solve(view, actuation, settings, &guess, found);
             if (found.status != Status::converged) return false;
-            const bool known = seen == Glance::rigid && found.mesh.steps == near.mesh.steps && found.mesh.grade == near.mesh.grade;
             near = std::move(found);
-            solved = true;
+            step_.assign(newton.shooting.unknowns, 0.0);
+            if (!measure(robot, near) || too_long()) return false;
+        } else if (rigid && missed <= aim) {  // what its steps err is yet to be known
+            const auto steps = near.mesh.steps;
+            const auto grade = near.mesh.grade;
+            if (!newton.polish(near)) return false;
+            const bool known = near.mesh.steps == steps && near.mesh.grade == grade;
             if (!known && (!measure(robot, near) || too_long())) return false;
         }
-        if (missed <= aim && solved && near.base_residual <= settings.residual_tolerance) {
-            settle(robot, near, out);
+        from = nullptr;
+        if (missed <= aim && near.discretisation_error <= settings.tolerance && near.base_residual <= settings.residual_tolerance) {
+            if (!NewtonSolver::succeed(near)) return false;
+            settle(std::move(robot), std::move(near), out);
             return true;
         }
         mix(none, none);
@@ -255,30 +300,45 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
     return false;
 }
 
-FrictionRounds::Glance FrictionRounds::glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings,
-                                              const Solution& blank, bool solved, Solution& near) {
-    NewtonSolver newton(view, actuation, settings);
-    const bool rigid = newton.shooting.unknowns == 0;
-    if (!rigid && !solved) return Glance::failed;
-    Solution trial = rigid ? blank : near;
-    if (!newton.take_over(near, trial) || (!rigid && !newton.step_by_derivatives(trial))) return Glance::failed;
-    if (newton.shooting.distance(near.free_end, trial.free_end) > Stride::CLOSE) return Glance::failed;
-    if (!WrapReader(channels_, joints_).read(newton, trial, after_)) return Glance::failed;
-    newton.note_edges(trial);
-    trial.status = Status::converged;
-    near = std::move(trial);
-    ++rounds;
-    return compare() ? (rigid ? Glance::rigid : Glance::carried) : Glance::failed;
+/// Without unknowns, a neighbour's mesh is all that is asked for.
+bool FrictionRounds::lead(NewtonSolver& newton, const Solution& from, const FreeEnd<double>* ahead, Solution& near) {
+    if (newton.shooting.unknowns > 0) return newton.lead(from, near, ahead);
+    return newton.take_over(from, near) || newton.carry_over(from, near);
 }
 
-void FrictionRounds::settle(const RobotTables<double>& shaped, const Solution& solution, FrictionSettled& out) const {
-    out.robot = shaped;
-    out.solution = solution;
-    out.profiles = profiles;
-    out.wraps = after_;
+bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution& near) {
+    const int unknowns = newton.shooting.unknowns;
+    if (from) {
+        if (!lead(newton, *from, ahead_ ? &*ahead_ : nullptr, near)) return false;
+    } else {
+        const FreeEnd<double> before = near.free_end;
+        newton.shooting.move(before, step_.data(), 1.0, near.free_end);
+        if (near.mesh.steps.size() != newton.layout.sections.size()) {  // a front has come or gone
+            const Solution last = near;
+            if (!lead(newton, last, &last.free_end, near)) return false;
+        } else if (unknowns > 0 && missed > LITTLE * precision_ && !newton.step_by_derivatives(near)) {
+            return false;
+        }
+        if (newton.shooting.distance(before, near.free_end) > Stride::CLOSE) return false;
+    }
+    if (!WrapReader(channels_, joints_).read(newton, near, after_)) return false;
+    newton.note_edges(near);
+    double step[MAX_UNKNOWNS];
+    if (!newton.chord(near, step)) return false;
+    step_.assign(step, step + unknowns);
+    near.status = Status::converged;
+    ++rounds;
+    return compare();
+}
+
+void FrictionRounds::settle(RobotTables<double>&& shaped, Solution&& solution, FrictionSettled& out) {
+    out.robot = std::move(shaped);
+    out.solution = std::move(solution);
+    out.profiles = std::move(profiles);
+    out.wraps = std::move(after_);
     out.missed = missed;
     out.rounds = rounds;
-    out.pairs = pairs_;
+    out.pairs = std::move(pairs_);
     out.at = at_;
 }
 
@@ -303,34 +363,22 @@ void FrictionRounds::numbers_of(const std::vector<Wrap>& wraps, std::vector<doub
     out.clear();
     for (size_t c = 0; c < wraps.size(); ++c) {
         const auto& joints = joints_[c];
-        for (size_t k = 0; k + 1 < joints.size(); ++k)
+        for (size_t k = 0; k + 1 < joints.size() && !channels_[c].over_disks; ++k)
             for (double sigma : points_between(joints[k], joints[k + 1])) out.push_back(wraps[c].rise.at(sigma));
         for (double joint : joints) out.push_back(wraps[c].jump_at(joint));
     }
 }
 
 void FrictionRounds::add(const std::vector<double>& numbers, std::vector<Wrap>& wraps) const {
-    const ChebyshevRules& rules = ChebyshevRules::get();
     size_t n = 0;
     for (size_t c = 0; c < wraps.size(); ++c) {
-        Curve& rise = wraps[c].rise;
-        Curve correction{joints_[c], {}};
-        for (size_t k = 0; k + 1 < joints_[c].size(); ++k, n += CURVE_POINTS) {
-            PointValues values;
-            std::copy(&numbers[n], &numbers[n] + CURVE_POINTS, values.begin());
-            correction.coefficients.push_back(ChebyshevRules::times(rules.fit, values));
-        }
-        for (size_t k = 0; k < rise.coefficients.size(); ++k) {
-            PointValues values = points_between(rise.edges[k], rise.edges[k + 1]);
-            const int piece = correction.piece(0.5 * (rise.edges[k] + rise.edges[k + 1]));
-            for (double& x : values) x = correction.on(piece, x);
-            values = ChebyshevRules::times(rules.fit, values);
-            for (int i = 0; i < CURVE_POINTS; ++i) rise.coefficients[k][i] += values[i];
-        }
+        if (!channels_[c].over_disks) add_rises(joints_[c], &numbers[n], wraps[c].rise);
+        if (!channels_[c].over_disks) n += (joints_[c].size() - 1) * CURVE_POINTS;
         for (double joint : joints_[c]) {
             const double jump = numbers[n++];
-            for (size_t k = 0; k < rise.edges.size() && jump != 0.0; ++k)
-                if (std::fabs(rise.edges[k] - joint) <= EDGE_GAP) {
+            const auto& edges = wraps[c].rise.edges;
+            for (size_t k = 0; k < edges.size() && jump != 0.0; ++k)
+                if (std::fabs(edges[k] - joint) <= EDGE_GAP) {
                     wraps[c].jumps[k] = larger(wraps[c].jumps[k] + jump, 0.0);
                     break;
                 }

@@ -16,7 +16,8 @@ struct HistoryLimit {
 
 /// A round: profiles from the wraps by the friction step, the shape at these profiles, the wraps in that shape. The map from
 /// wraps to wraps contracts by about the friction angle; Anderson's mixing (1965) of the last rounds, those of the step
-/// before among them, makes it converge in a few. Wraps are mixed as numbers: rises at points and jumps at joints.
+/// before among them, makes it converge in a few. Wraps are mixed as numbers: rises at points and jumps at joints. The free
+/// end is found in the same rounds, mixed with them: each is one march, and the last has measured what is left of both.
 class FrictionRounds {
   public:
     RobotTables<double> robot;  // with the profiles of the round
@@ -46,13 +47,14 @@ class FrictionRounds {
     bool measure(const RobotTables<double>& shaped, const Solution& solution);
 
     /// Wraps to go on with; and tensions, from those of this round and those to go on with (all over the scale).
-    void mix(std::vector<double>& tension, const std::vector<double>& next);
+    void mix_pulls(std::vector<double>& tension, const std::vector<double>& next);
 
     /// Rounds at the tensions of the blank solution, the first of them without solving for the shape anew: the free end follows
     /// by the neighbour's derivatives. False: not found, or beyond the limit.
     bool run(const Settings& settings, const Solution& blank, const Solution& guess, const HistoryLimit& limit, FrictionSettled& out);
 
-    void settle(const RobotTables<double>& shaped, const Solution& solution, FrictionSettled& out) const;
+    /// What was found; the rounds are over.
+    void settle(RobotTables<double>&& shaped, Solution&& solution, FrictionSettled& out);
 
     /// Rates of a robot (still: of nothing) as the tension of channel c grows by 1 N: of what follows the base, or of all.
     RobotTables<double> rates(const RobotTables<double>& still, size_t channel, double tension, bool all) const;
@@ -66,15 +68,19 @@ class FrictionRounds {
     std::vector<std::vector<double>> joints_;
     std::vector<Wrap> wraps_, after_;      // of this round, and in its shape
     std::vector<double> own_, given_;      // both as numbers
+    std::optional<FreeEnd<double>> ahead_;  // where the free end goes on to
+    std::vector<double> step_;              // that the last march says is left for it
     std::vector<double> last_missed_, last_given_;
     std::vector<RoundsPair> pairs_;
 
-    /// Wraps in the shape at the round's profiles, without solving for it. rigid: no free end is unknown, only the
-    /// discretisation error is; carried: the free end as the derivatives of the solution near by tell it, which is that of
-    /// this settling; failed: neither, or too far from it; near is what was found.
-    enum class Glance { failed, rigid, carried };
-    Glance glance(const Robot& view, const Actuation<double>& actuation, const Settings& settings, const Solution& blank, bool solved,
-                  Solution& near);
+    /// Wraps in a shape at the round's profiles, without solving for it, and how far its free end is from the solution: in one
+    /// march, after one with derivatives where it starts from a neighbour. False: that is too far.
+    bool glance(NewtonSolver& newton, const Solution* from, Solution& near);
+
+    static bool lead(NewtonSolver& newton, const Solution& from, const FreeEnd<double>* ahead, Solution& near);
+
+    /// Wraps to go on with, and others from those of this round and those to go on with.
+    void mix(std::vector<double>& others, const std::vector<double>& next);
 
     bool read(const RobotTables<double>& shaped, const Solution& solution, std::vector<Wrap>& wraps) const;
     bool compare();

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import tactr
 from tactr import Annulus, DriveState, Material, Robot, Straight, Tendon, Tube, _core
 from tactr.friction.equilibrium import Equilibrium
+from tactr.friction.profiles import FoundProfiles
 from tactr.statics.solve import Prepared
 
 from .robots import SOFT, bending, legs, pulled, rubbing_tubes
@@ -93,8 +94,11 @@ def test_what_a_step_misses_is_estimated():
     for k in range(1, len(rows) - 1):
         before, after = fine.states[8 * k], fine.states[8 * k + 8]
         step = tactr.drive(robot, {"tension": rows[k + 1 : k + 2]}, state=before).state
-        ends = before.along.found, step.along.found
-        pairs.append((_core.friction_history_missed(channels, *ends, 1e-4), apart(step, after)))
+        ends = before.along, step.along
+        assert isinstance(ends[0], FoundProfiles) and isinstance(ends[1], FoundProfiles)
+        pairs.append(
+            (_core.friction_history_missed(channels, ends[0].found, ends[1].found, 1e-4), apart(step, after))
+        )
     estimated, true = np.transpose([pair for pair in pairs if pair[1] > 1e-4])
     assert len(true) >= 4
     assert (estimated > 0.4 * true).all()
@@ -103,8 +107,9 @@ def test_what_a_step_misses_is_estimated():
 def apart(one: DriveState, other: DriveState) -> float:
     """Largest difference of log tension, fronts left away."""
     found = 0.0
-    for tendon, p in zip(one.tendons, one.profiles, strict=True):
-        sigma = np.linspace(0.0, p.log.edges[-1], 400, endpoint=False)
+    for tendon, profile in zip(one.tendons, one.profiles, strict=True):
+        assert profile is not None
+        sigma = np.linspace(0.0, profile.log.edges[-1], 400, endpoint=False)
         ratio = np.log(one.tension(tendon, sigma) / other.tension(tendon, sigma))
         found = max(found, float(np.sort(np.abs(ratio))[-4]))
     return found
