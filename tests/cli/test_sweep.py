@@ -57,6 +57,7 @@ def test_solve_and_look(run, study):
         (["pulls.yaml", "--voxel", "3"], "--voxel: \"3\" has no unit"),
         (["pulls.yaml", "--plot", "x.doc"], "--plot"),
         (["pulls.yaml", "--plot", "x.png", "--colour", "zz"], "has no 'zz'"),
+        (["pulls.yaml", "--plot", "x.png", "--colour", "isotropy"], "which needs the output jacobian"),
         (["none.yaml"], "none.yaml: no such file"),
         (["."], "no store of a sweep"),
         ([], "requires"),

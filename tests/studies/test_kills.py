@@ -19,7 +19,7 @@ from tactr.studies.store import open_store
 
 from .conftest import files_of
 
-KILLS = 4
+KILLS = 3
 STUDY = Study(
     examples.load("two_tube_90"),
     [Range("tendons.outer.tension", 0.0, 4.0), Range("tendons.inner.tension", 0.0, 4.0)],

@@ -16,6 +16,7 @@ import numpy as np
 from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
+from tactr.robot import _check as check
 from tactr.statics.assemble import tables
 
 RELATIVE_STEP, LEAST_STEP = 1e-3, 1e-6
@@ -39,9 +40,9 @@ def value_of(robot: Robot, path: str) -> float:
     for k, step in enumerate(steps):
         found = _child(found, step, path, steps[:k])
     if isinstance(found, bool) or not isinstance(found, int | float):
-        raise RobotError(
-            path, f"{found!r} is not a number", "the path of one number of the robot", value=path
-        )
+        further = _options(found)
+        expected = "a further step, one of " + ", ".join(further) if further else "the path of a number"
+        raise RobotError(path, f"{check.show(found)} is not a number", expected, value=path)
     return float(found)
 
 

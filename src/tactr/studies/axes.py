@@ -95,14 +95,19 @@ def actuator(robot: Robot, path: str) -> tuple[str, int] | None:
     return place[1:] if place is not None and ACTUATORS.get(place[1]) == place[0] else None
 
 
+def check_path(robot: Robot, path: str) -> None:
+    """Raise RobotError unless the robot has such a number."""
+    if actuator(robot, path) is None:
+        try:
+            value_of(robot, path)
+        except RobotError as error:
+            raise RobotError("path", error.problem, error.expected, value=path) from None
+
+
 def check_axis(robot: Robot, axis: Axis) -> None:
     """Raise RobotError, about low, high or values[k], unless the robot can have every value."""
+    check_path(robot, axis.path)
     found = actuator(robot, axis.path)
-    if found is None:
-        try:
-            value_of(robot, axis.path)
-        except RobotError as error:
-            raise RobotError("path", error.problem, error.expected, value=axis.path) from None
     for field, value in _entries(axis):
         try:
             _moved(robot, axis.path, value)
