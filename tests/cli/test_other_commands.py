@@ -39,6 +39,17 @@ def test_check(run, tmp_path):
     ]
 
 
+def test_check_a_study(run, tmp_path):
+    study = tmp_path / "study.yaml"
+    text = "robot: two_tube_90\nvary:\n- {path: tubes.outer.rotation, from: 0 deg, to: 90 deg, points: 4}\n"
+    study.write_text(text)
+    code, out, _ = run("check", str(study))
+    assert code == 0 and "4 configurations; varied tubes.outer.rotation" in out
+    study.write_text(text.replace("outer", "uter"))
+    code, _, err = run("check", str(study))
+    assert code == 2 and "study.yaml:3" in err and "uter" in err
+
+
 def test_check_nothing(run):
     assert run("check")[0] == 2
 

@@ -12,7 +12,7 @@ Usage: tactr COMMAND [ARGUMENTS]
   calibrate FILE DATA.csv
                      find a robot's numbers from measured points
   sweep STUDY.yaml   solve many configurations into a store, on all cores or a cluster
-  check FILE...      check robot files without solving
+  check FILE...      check robot and study files without solving
   schema [study]     print the JSON Schema of robot or study files, for editors
   examples [NAME]    list the built-in example robots, or print one
   reproduce          solve every experiment of the paper and write a report
@@ -129,11 +129,11 @@ command, as does Ctrl-C. Needs the extra view: pip install 'tactr[view]'
 """
 
 CHECK = """\
-tactr check: check robot files without solving; every problem is listed with its line
+tactr check: check robot and study files without solving; every problem is listed with its line
 
 Usage: tactr check FILES...
 
-  FILES   robot files (.yaml, .toml) or names of built-in examples
+  FILES   robot or study files (.yaml, .toml), or names of built-in examples
 
 What a file marks as assumed is listed too. Exit code 2: a file cannot be used.
 """
