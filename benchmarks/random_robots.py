@@ -30,6 +30,7 @@ loads        40 % of the robots: a force at the tip that alone would turn it by 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -174,10 +175,11 @@ def _tensioned(rng: np.random.Generator, tubes: list[Tube], tendons: list[Tendon
     highest = min((_limit(tubes, t) / _newtons(t) for t in tendons if _newtons(t) > 0.0), default=0.0)
     everywhere = np.concatenate([_grid(tubes), _middles(tubes, tendons)])
     reach = _largest_offset(tubes, tendons, everywhere)
+    curvature, on_grid = (_glued(tubes, tendons, s) for s in (everywhere, _grid(tubes)))
 
     def fits(scale: float) -> bool:
-        tightest = np.max(np.abs(glued_curvature(tubes, tendons, scale, everywhere)) * reach)
-        return bool(bend(tubes, tendons, scale) <= target and tightest <= CLOSEST)
+        tightest = np.max(np.abs(curvature(scale)) * reach)
+        return bool(_bend(tubes, on_grid(scale)) <= target and tightest <= CLOSEST)
 
     low, high = (highest if fits(highest) else 0.0), highest
     for _ in range(40):
@@ -203,9 +205,8 @@ def _newtons(tendon: Tendon) -> float:
     return tendon.tension
 
 
-def bend(tubes: list[Tube], tendons: list[Tendon], scale: float = 1.0) -> float:
-    """Total bend in rad, were the tubes glued together and unable to twist; tensions times scale."""
-    curvature = glued_curvature(tubes, tendons, scale, _grid(tubes))
+def _bend(tubes: list[Tube], curvature: np.ndarray) -> float:
+    """Total bend in rad by the curvature on the grid."""
     return float(np.mean(np.abs(curvature)) * max(tube.tip for tube in tubes))
 
 
@@ -223,16 +224,23 @@ def _middles(tubes: list[Tube], tendons: list[Tendon]) -> np.ndarray:
     return 0.5 * (ends[1:] + ends[:-1])
 
 
-def glued_curvature(tubes: list[Tube], tendons: list[Tendon], scale: float, s: np.ndarray) -> np.ndarray:
-    """Curvature ux + i uy at s, were the tubes glued together and unable to twist."""
-    stiffness, moment = np.zeros(len(s)), np.zeros(len(s), dtype=complex)
+def _glued(tubes: list[Tube], tendons: list[Tendon], s: np.ndarray) -> Callable[[float], np.ndarray]:
+    """Curvature ux + i uy at s by the scale of the tensions, were the tubes glued together and unable to
+    twist."""
+    stiffness, rest = np.zeros(len(s)), np.zeros(len(s), dtype=complex)
     for tube in tubes:
         here, EI = s < tube.tip, tube.stiffness.EI_x
         stiffness += EI * here
-        moment += EI * here * _rest(tube, s)
-    for tendon in tendons:
-        moment += scale * _pull(tubes, tendon, s)
-    return moment / stiffness
+        rest += EI * here * _rest(tube, s)
+    pulls = [_pull(tubes, tendon, s) for tendon in tendons]
+
+    def curvature(scale: float) -> np.ndarray:
+        moment = rest.copy()
+        for pull in pulls:
+            moment += scale * pull
+        return moment / stiffness
+
+    return curvature
 
 
 def _largest_offset(tubes: list[Tube], tendons: list[Tendon], s: np.ndarray) -> np.ndarray:

@@ -15,7 +15,7 @@ namespace tactr {
 
 namespace {
 
-constexpr std::size_t CHUNK = 256;
+constexpr std::size_t LEAST_CHUNK = 64, MOST_CHUNK = 512, CHUNKS_A_THREAD = 4;  // large: packs of those alike; many: no thread waits
 constexpr int STABILITY_SAMPLES = 8;  // per step
 
 /// |u - u*| and |v - v*| of one tube at one station, where they are larger than found before.
@@ -38,16 +38,15 @@ void largest_strains(const RobotTables<double>& robot, const Solution& solution,
                 raise_strains(robot, t, stations[k] - solution.translation[t], samples.stations[k], worst + 6 * t);
 }
 
-constexpr int PACK = 4;                            // as wide as pack.hpp's
 constexpr int SINGLES = 64, DEVICE_CHUNK = 16384;  // configurations at once
 
 LanesUnit unit_of(const BatchRequest& request) {
     Lanes lanes = request.lanes;
     if (lanes == Lanes::widest) lanes = has_lanes(Lanes::avx2) ? Lanes::avx2 : Lanes::baseline;
 #ifdef TACTR_HAS_AVX2
-    if (lanes == Lanes::avx2) return {tactr_lanes_avx2, PACK, true, false};
+    if (lanes == Lanes::avx2) return {tactr_lanes_avx2, TACTR_LANES_SIDE_BY_SIDE, true, false};
 #endif
-    if (lanes == Lanes::baseline) return {tactr_lanes_baseline, PACK, true, false};
+    if (lanes == Lanes::baseline) return {tactr_lanes_baseline, TACTR_LANES_SIDE_BY_SIDE, true, false};
     if (lanes == Lanes::single) return {tactr_lanes_single, SINGLES, false, false};
     return {lanes == Lanes::device ? request.device : nullptr, DEVICE_CHUNK, false, true};
 }
@@ -175,7 +174,8 @@ bool strain_maxima(const RobotTables<double>& robot, const Solution& solution, c
 
 void solve_batch(const BatchRequest& request, const BatchResult& result, const std::function<bool()>& poll) {
     const BatchSolver solver(request, result);
-    const std::size_t chunk = request.lanes == Lanes::device ? DEVICE_CHUNK : CHUNK;
+    const std::size_t share = request.count / (CHUNKS_A_THREAD * static_cast<std::size_t>(std::max(request.threads, 1)));
+    const std::size_t chunk = request.lanes == Lanes::device ? DEVICE_CHUNK : std::clamp(share, LEAST_CHUNK, MOST_CHUNK);
     in_chunks(request.count, chunk, request.threads, [&](std::size_t begin, std::size_t end) { solver.solve(begin, end); }, poll);
 }
 

@@ -123,25 +123,33 @@ template <int K, class R> TACTR_ANY inline Dual<K, R> square_root(const Dual<K, 
     return r;
 }
 
-constexpr double LARGEST_ANGLE = 1e5;  // for which the reduction below holds
+/// How angles are brought into [-pi/4, pi/4]: pi/2 in three parts, of which the first two have room for the number of
+/// quarter turns, and the terms of the series that are then needed.
+template <class R>
+struct Reduction;
+template <>
+struct Reduction<double> {
+    static constexpr double HALF_PI_HIGH = 0x1.921fb544p+0, HALF_PI_MIDDLE = 0x1.0b4611a6p-34, HALF_PI_LOW = 0x1.3198a2e037073p-69;
+    static constexpr double ROUNDER = 0x1.8p52;  // adding and taking it away rounds to a whole number
+    static constexpr double LARGEST = 1e5;       // angle for which this holds
+    static constexpr int TERMS = 8;
+};
 
 /// Sine and cosine by reduction to [-pi/4, pi/4] and their Taylor series: to 2 units in the last place, the same bits
 /// on every machine (the C library's own depend on the processor) and quicker for what the march needs. Here those of
 /// the rest of x by quarter turns, and their number.
 template <class R>
-TACTR_ANY inline void sine_cosine_of_rest(const R& x, R& sine, R& cosine, R& shifted) {
+TACTR_ANY inline void sine_cosine_of_rest(const R& x, R& sine, R& cosine, R& turns) {
+    using Of = Reduction<R>;
     constexpr double TWO_OVER_PI = 0.63661977236758134308;
-    constexpr double HALF_PI_HIGH = 0x1.921fb544p+0, HALF_PI_MIDDLE = 0x1.0b4611a6p-34, HALF_PI_LOW = 0x1.3198a2e037073p-69;
-    constexpr double ROUNDER = 0x1.8p52;  // adding and taking it away rounds to a whole number
-    shifted = x * TWO_OVER_PI + ROUNDER;
-    const R turns = shifted - ROUNDER;
-    const R r = ((x - turns * HALF_PI_HIGH) - turns * HALF_PI_MIDDLE) - turns * HALF_PI_LOW, z = r * r;
+    turns = (x * TWO_OVER_PI + Of::ROUNDER) - Of::ROUNDER;
+    const R r = ((x - turns * Of::HALF_PI_HIGH) - turns * Of::HALF_PI_MIDDLE) - turns * Of::HALF_PI_LOW, z = r * r;
     constexpr double S[8] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800,
                              -1.0 / 1307674368000, 1.0 / 355687428096000};
     constexpr double C[8] = {-1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600,
                              -1.0 / 87178291200, 1.0 / 20922789888000};
-    R p(S[7]), q(C[7]);
-    for (int k = 6; k >= 0; --k) {
+    R p(S[Of::TERMS - 1]), q(C[Of::TERMS - 1]);
+    for (int k = Of::TERMS - 2; k >= 0; --k) {
         p = p * z + S[k];
         q = q * z + C[k];
     }
@@ -149,19 +157,23 @@ TACTR_ANY inline void sine_cosine_of_rest(const R& x, R& sine, R& cosine, R& shi
     cosine = 1.0 + z * q;
 }
 
-TACTR_ANY inline void sine_cosine(double x, double& s, double& c) {
-    if (!(std::fabs(x) < LARGEST_ANGLE)) {
-        s = std::sin(x);
-        c = std::cos(x);
-        return;
-    }
-    double sine, cosine, shifted;
-    sine_cosine_of_rest(x, sine, cosine, shifted);
-    const int quarter = static_cast<int>(shifted - 0x1.8p52) & 3;
+template <class R>
+TACTR_ANY inline void turn_by_quarters(int quarter, const R& sine, const R& cosine, R& s, R& c) {
     s = quarter & 1 ? cosine : sine;
     c = quarter & 1 ? sine : cosine;
     if (quarter & 2) s = -s;
     if ((quarter + 1) & 2) c = -c;
+}
+
+TACTR_ANY inline void sine_cosine(double x, double& s, double& c) {
+    if (!(std::fabs(x) < Reduction<double>::LARGEST)) {
+        s = std::sin(x);
+        c = std::cos(x);
+        return;
+    }
+    double sine, cosine, turns;
+    sine_cosine_of_rest(x, sine, cosine, turns);
+    turn_by_quarters(static_cast<int>(turns) & 3, sine, cosine, s, c);
 }
 template <int K, class R> TACTR_ANY inline void sine_cosine(const Dual<K, R>& x, Dual<K, R>& s, Dual<K, R>& c) {
     sine_cosine(x.v, s.v, c.v);

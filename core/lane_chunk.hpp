@@ -16,11 +16,11 @@
 
 namespace tactr {
 
-/// What solves a pack, and how many it takes at once. exact: always as many, else up to as many.
+/// What solves a pack, and how many it takes at most. fixed: its rows are always as wide.
 struct LanesUnit {
     TactrLanesDoor door;
     int width;
-    bool exact, own_memory;
+    bool fixed, own_memory;
 };
 
 class LaneChunk {
@@ -85,7 +85,8 @@ class LaneChunk {
     std::vector<LanePlan> plans_;
     std::vector<double> rows_;
     std::vector<Job> jobs_;
-    std::vector<double> memory_, numbers_, results_;
+    std::vector<double> numbers_, results_;
+    std::vector<float> memory_;
 
     bool seen(const RobotTables<double>& robot, const double* translation, double residual_tolerance) const {
         return robot_ == &robot && residual_tolerance_ == residual_tolerance &&
@@ -99,11 +100,13 @@ class LaneChunk {
         return static_cast<int>(plans_.size()) - 1;
     }
 
-    static double* aligned(std::vector<double>& store, std::size_t size) {
-        constexpr std::size_t BYTES = 32;
-        if (store.size() < size + BYTES / sizeof(double)) store.resize(size + BYTES / sizeof(double));
+    /// Rows of a pack begin where lines of the cache do.
+    template <class A>
+    static A* aligned(std::vector<A>& store, std::size_t size) {
+        constexpr std::size_t BYTES = 64;
+        if (store.size() < size + BYTES / sizeof(A)) store.resize(size + BYTES / sizeof(A));
         const auto at = reinterpret_cast<std::uintptr_t>(store.data());
-        return store.data() + ((BYTES - at % BYTES) % BYTES) / sizeof(double);
+        return store.data() + ((BYTES - at % BYTES) % BYTES) / sizeof(A);
     }
 
     /// All that is pending, in packs. False: nothing was.
@@ -132,16 +135,16 @@ class LaneChunk {
             plan.sections[k].steps = jobs[0]->steps[k];
             stages += plan.sections[k].even ? 1 : dp8::STAGES * plan.sections[k].steps;
         }
-        const std::size_t width = unit_.exact ? unit_.width : count, memory_rows = stages * LANE_STRAINS * (1 + LANE_UNKNOWNS);
+        const std::size_t width = unit_.fixed ? unit_.width : count, memory_rows = stages * LANE_STRAINS * (1 + LANE_UNKNOWNS);
         double* numbers = aligned(numbers_, plan.numbers * width);
         double* results = aligned(results_, LaneResults::ROWS * width);
-        double* memory = unit_.own_memory ? nullptr : aligned(memory_, memory_rows * width);
+        float* memory = unit_.own_memory ? nullptr : aligned(memory_, memory_rows * width);
         for (std::size_t l = 0; l < width; ++l) {
             const Job& job = *jobs[std::min<std::size_t>(l, count - 1)];  // short of company, the last one is its own
             for (int n = 0; n < plan.numbers; ++n) numbers[n * width + l] = rows_[job.row + n];
             for (int r = 0; r < LaneResults::ROWS; ++r) results[r * width + l] = job.results[r];
         }
-        if (const int error = unit_.door(&plan, phase, static_cast<long>(width), static_cast<long>(memory_rows), numbers, memory, results))
+        if (const int error = unit_.door(&plan, phase, count, static_cast<long>(memory_rows), numbers, memory, results))
             throw std::runtime_error("the device failed with error " + std::to_string(error));
         for (int l = 0; l < count; ++l)
             for (int r = 0; r < LaneResults::ROWS; ++r) jobs[l]->results[r] = results[r * width + l];

@@ -17,15 +17,15 @@ constexpr int LANE_STATES = 3 * LANE_TUBES + 4 + 4 + 3;  // packed, of one secti
 /// Strains at every stage of the march before, and their slopes in the unknowns: a row for each.
 template <class R>
 struct LaneMemory {
-    LaneRows<R> rows;
+    LaneStore<R> rows;
     int unknowns;
     R shift[LANE_UNKNOWNS + 1];  // of the unknowns since then
     bool warm;
 
-    TACTR_ANY R& strain(int stage, int n) const { return rows[static_cast<long>(stage) * LANE_STRAINS * (1 + unknowns) + n]; }
-    TACTR_ANY R& slope(int stage, int n, int l) const {
-        return rows[static_cast<long>(stage) * LANE_STRAINS * (1 + unknowns) + LANE_STRAINS * (1 + l) + n];
-    }
+    TACTR_ANY long strain(int stage, int n) const { return static_cast<long>(stage) * LANE_STRAINS * (1 + unknowns) + n; }
+    TACTR_ANY long slope(int stage, int n, int l) const { return strain(stage, n) + LANE_STRAINS * (1 + l); }
+    /// Only where active, once there is something to keep.
+    TACTR_ANY void put(long row, const R& x, const MaskOf<R>& active) const { rows.put(row, warm ? select(active, x, rows[row]) : x); }
 };
 
 /// How a march is made.
@@ -42,7 +42,7 @@ class LaneMarch {
     using T = typename LaneState<R, K>::type;
 
     const LanePlan& plan;
-    const LaneRows<const R>& numbers;
+    const LaneNumbers<R>& numbers;
     const LaneMarchKind kind;
     LaneSectionSolver<R, K> solver;
     LaneStability<R>* stability = nullptr;  // to be told of every step
@@ -53,7 +53,7 @@ class LaneMarch {
     T quaternion[4], position[3];  // at the guide's exit
     R length[LANE_TENDONS], section_error[LANE_SECTIONS], length_error[LANE_SECTIONS];
 
-    TACTR_ANY LaneMarch(const LanePlan& plan_, const LaneRows<const R>& numbers_, const LaneMarchKind& kind_)
+    TACTR_ANY LaneMarch(const LanePlan& plan_, const LaneNumbers<R>& numbers_, const LaneMarchKind& kind_)
         : plan(plan_), numbers(numbers_), kind(kind_), solver(plan_, numbers_) {
         solver.enough = kind.enough;
         solver.last_step = kind.last_step;
@@ -188,8 +188,8 @@ class LaneMarch {
             return;
         }
         const auto shifted = [&](int n) {
-            R strain = memory.strain(stage, n);
-            for (int l = 0; l < memory.unknowns; ++l) strain += memory.slope(stage, n, l) * memory.shift[l];
+            R strain = memory.rows[memory.strain(stage, n)];
+            for (int l = 0; l < memory.unknowns; ++l) strain += memory.rows[memory.slope(stage, n, l)] * memory.shift[l];
             return strain;
         };
         e.kx = shifted(0);
@@ -204,18 +204,11 @@ class LaneMarch {
 
     TACTR_ANY void keep(const LaneSection& section, LaneMemory<R>& memory, const MaskOf<R>& active, int stage, const StrainsOf<R>& e) const {
         const auto stored = [&](int n, const R& strain, const T& moving) {
-            R& at = memory.strain(stage, n);
-            at = memory.warm ? select(active, strain, at) : strain;
+            memory.put(memory.strain(stage, n), strain, active);
             if constexpr (K > 0)
-                for (int l = 0; l < memory.unknowns; ++l) {
-                    R& slope = memory.slope(stage, n, l);
-                    slope = memory.warm ? select(active, moving.d[l], slope) : moving.d[l];
-                }
+                for (int l = 0; l < memory.unknowns; ++l) memory.put(memory.slope(stage, n, l), moving.d[l], active);
             else
-                for (int l = 0; l < memory.unknowns; ++l) {
-                    R& slope = memory.slope(stage, n, l);
-                    if (!memory.warm) slope = R(0.0);
-                }
+                for (int l = 0; l < memory.unknowns && !memory.warm; ++l) memory.rows.put(memory.slope(stage, n, l), R(0.0));
             (void)moving;
         };
         const StrainsOf<T>& moving = solver.strains;

@@ -71,7 +71,8 @@ struct LaneResults {
         DETERMINANT,
         FAR_FROM_SNAPPING,  // 1: no conjugate point can have been passed
         MARCHES,
-        JACOBIAN,
+        SHIFT,            // of the unknowns since the march that the memory holds
+        JACOBIAN = SHIFT + LANE_UNKNOWNS,
         SECTION_ERROR = JACOBIAN + LANE_UNKNOWNS * LANE_UNKNOWNS,
         SECTION_LENGTH_ERROR = SECTION_ERROR + LANE_SECTIONS,
         ROWS = SECTION_LENGTH_ERROR + LANE_SECTIONS

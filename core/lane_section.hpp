@@ -38,7 +38,7 @@ class LaneSectionSolver {
     TendonState<R> tendons[LANE_HOSTED];
     TendonTangentOf<R> tendon_tangents[LANE_HOSTED];
 
-    TACTR_ANY LaneSectionSolver(const LanePlan& plan, const LaneRows<const R>& numbers) : plan_(plan), numbers_(numbers) {}
+    TACTR_ANY LaneSectionSolver(const LanePlan& plan, const LaneNumbers<R>& numbers) : plan_(plan), numbers_(numbers) {}
 
     TACTR_ANY void begin() {
         section_ = nullptr;
@@ -80,7 +80,7 @@ class LaneSectionSolver {
     static constexpr int MOST_STEPS = 12;
 
     const LanePlan& plan_;
-    const LaneRows<const R>& numbers_;
+    const LaneNumbers<R>& numbers_;
     const LaneSection* section_ = nullptr;
     TubePieceOf<R> piece_[LANE_TUBES];
     RoutingPieceOf<R> routing_[LANE_HOSTED];

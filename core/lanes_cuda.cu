@@ -1,7 +1,7 @@
 // The lock-step solver on a graphics processor: one configuration a thread, every number in a row of its own.
 #include <cuda_runtime.h>
 
-#include "lane_newton.hpp"
+#include "lane_solver.hpp"
 #include "lanes_door.hpp"
 
 namespace tactr {
@@ -11,12 +11,10 @@ namespace {
 constexpr int THREADS = 64;  // a block; each needs many registers
 
 template <int N>
-__global__ void solve_lanes_on_device(const LanePlan* plan, int phase, long count, const double* numbers, double* memory, double* results) {
+__global__ void solve_lanes_on_device(const LanePlan* plan, int phase, long count, const double* numbers, float* memory, double* results) {
     const long t = static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
     if (t >= count) return;
-    const LaneRows<const double> in{numbers + t, count};
-    LaneNewton<double, N> newton(*plan, in, LaneRows<double>{memory + t, count}, LaneRows<double>{results + t, count});
-    newton.go(phase);
+    run_phase<double, N>(*plan, phase, 1, count, numbers + t, memory + t, results + t);
 }
 
 /// Memory on the device that grows as it is needed, one for each thread of the host.
@@ -48,7 +46,7 @@ cudaError_t launch(const LanePlan& plan, int phase, long count, long memory_rows
     cudaError_t error = on_plan.fit(sizeof plan);
     if (error == cudaSuccess) error = on_numbers.fit(numbers_size);
     if (error == cudaSuccess) error = on_results.fit(results_size);
-    if (error == cudaSuccess) error = on_memory.fit(wide * memory_rows);
+    if (error == cudaSuccess) error = on_memory.fit(sizeof(float) * static_cast<size_t>(count) * memory_rows);
     const auto send = [&error](void* to, const void* from, size_t size, cudaMemcpyKind kind) {
         if (error == cudaSuccess) error = cudaMemcpyAsync(to, from, size, kind, cudaStreamPerThread);
     };
@@ -59,7 +57,7 @@ cudaError_t launch(const LanePlan& plan, int phase, long count, long memory_rows
     const auto run = plan.tubes == 1 ? solve_lanes_on_device<0> : plan.tubes == 2 ? solve_lanes_on_device<1>
                    : plan.tubes == 3 ? solve_lanes_on_device<2> : solve_lanes_on_device<3>;
     run<<<static_cast<unsigned>((count + THREADS - 1) / THREADS), THREADS, 0, cudaStreamPerThread>>>(
-        on_plan.as<LanePlan>(), phase, count, on_numbers.as<double>(), on_memory.as<double>(), on_results.as<double>());
+        on_plan.as<LanePlan>(), phase, count, on_numbers.as<double>(), on_memory.as<float>(), on_results.as<double>());
     error = cudaGetLastError();
     send(results, on_results.as<void>(), results_size, cudaMemcpyDeviceToHost);
     return error == cudaSuccess ? cudaStreamSynchronize(cudaStreamPerThread) : error;
@@ -71,7 +69,7 @@ cudaError_t launch(const LanePlan& plan, int phase, long count, long memory_rows
 
 extern "C" {
 
-int tactr_lanes_cuda(const void* plan, int phase, long count, long memory_rows, const double* numbers, double*, double* results) {
+int tactr_lanes_cuda(const void* plan, int phase, long count, long memory_rows, const double* numbers, float*, double* results) {
     return static_cast<int>(tactr::launch(*static_cast<const tactr::LanePlan*>(plan), phase, count, memory_rows, numbers, results));
 }
 

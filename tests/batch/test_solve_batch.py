@@ -174,3 +174,54 @@ def test_wrong_shapes_and_settings_raise(given: dict[str, Any], field: str) -> N
 def test_an_empty_batch_is_empty() -> None:
     batch = tactr.solve_batch(two_tubes(), tension=np.zeros((0, 2)))
     assert len(batch) == 0 and batch.tip_position.shape == (0, 3)
+
+
+def stepped_tubes(first: float = 0.0, second: float = -0.05) -> Robot:
+    """The outer bore narrows and the inner tube thins at sigma = 0.1 m: they fit where the inner one's wide
+    part ends behind the narrow bore."""
+    soft = Material(E=5e9, nu=0.3)
+    narrowing = [(0.0, Annulus(3e-3, 2.5e-3)), (0.1, Annulus(3e-3, 1.5e-3))]
+    thinning = [(0.0, Annulus(2e-3, 1e-3)), (0.1, Annulus(1.2e-3, 1e-3))]
+    outer = Tube("outer", length=0.2, section=narrowing, material=soft, translation=first)
+    inner = Tube("inner", length=0.3, section=thinning, material=soft, translation=second)
+    return Robot([outer, inner], [Tendon("pull", "inner", Straight(3e-3, 0.0), tension=1.0)])
+
+
+def test_stepped_tubes_that_do_not_fit_are_invalid_alone() -> None:
+    translation = -np.random.default_rng(8).uniform(0.0, 0.09, (60, 2))
+    fits = translation[:, 1] <= translation[:, 0]
+    batch = tactr.solve_batch(stepped_tubes(), translation=translation, tension={"pull": 0.5})
+    assert 10 < fits.sum() < 50
+    np.testing.assert_array_equal(batch.status_names == "invalid", ~fits)
+    np.testing.assert_array_equal(batch.converged, fits)
+    assert np.isnan(batch.tip_position[~fits]).all()
+    good = tactr.solve_batch(stepped_tubes(), translation=translation[fits], tension={"pull": 0.5})
+    np.testing.assert_array_equal(batch.tip_position[fits], good.tip_position)
+    message = batch.message(int(np.flatnonzero(~fits)[0]))
+    assert "tubes[1].section[0].outer_diameter: 0.002 m does not fit into the bore 0.0015 m" in message
+
+
+def test_stepped_designs_that_do_not_fit_are_invalid_alone() -> None:
+    """Each item a robot of its own, its step elsewhere."""
+    rng = np.random.default_rng(9)
+    step, moved = rng.uniform(0.09, 0.14, 40), -rng.uniform(0.0, 0.05, 40)
+    batch = tactr.solve_batch(
+        stepped_tubes(), translation={"inner": moved}, parameters={"tubes.inner.section.1.0": step}
+    )
+    fits = moved + step <= 0.1
+    assert 10 < fits.sum() < 30
+    np.testing.assert_array_equal(batch.status_names == "invalid", ~fits)
+    np.testing.assert_array_equal(batch.converged, fits)
+
+
+def test_numbers_of_a_design_change_together() -> None:
+    """A wider inner tube needs the wider bore, and that the wider outer tube: none fits by itself."""
+    paths = ("tubes.inner.section.outer_diameter", "tubes.outer.section.inner_diameter")
+    paths += ("tubes.outer.section.outer_diameter",)
+    wide = tactr.solve_batch(two_tubes(), parameters=dict(zip(paths, (1.5e-3, 1.6e-3, 1.9e-3), strict=True)))
+    assert list(wide.status_names) == ["converged"]
+    tubes = wide.robot(0).tubes
+    assert tubes[0].section == Annulus(1.9e-3, 1.6e-3) and tubes[1].section == Annulus(1.5e-3, 0.6e-3)
+    bad = tactr.solve_batch(two_tubes(), parameters=dict(zip(paths, (1.5e-3, 1.6e-3, -1.0), strict=True)))
+    assert "-1 m" in bad.message(0) and all(path in bad.message(0) for path in paths[1:])
+    assert paths[0] not in bad.message(0)

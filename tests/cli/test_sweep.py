@@ -57,6 +57,7 @@ def test_solve_and_look(run, study):
         (["pulls.yaml", "--voxel", "3"], "--voxel: \"3\" has no unit"),
         (["pulls.yaml", "--plot", "x.doc"], "--plot"),
         (["pulls.yaml", "--plot", "x.png", "--colour", "zz"], "has no 'zz'"),
+        (["pulls.yaml", "--plot", "x.png", "--colour", "isotropy"], "which needs the output jacobian"),
         (["none.yaml"], "none.yaml: no such file"),
         (["."], "no store of a sweep"),
         ([], "requires"),
@@ -83,19 +84,22 @@ def test_the_schema(run):
 
 def test_an_interrupt_leaves_what_was_done(start, study):
     (study / "long.yaml").write_text(STUDY.replace("count: 40", "count: 40000"))
-    child = subprocess.Popen(
-        [sys.executable, "-m", "tactr.cli", "sweep", "long.yaml", "--threads", "1"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ,
+    command = [sys.executable, "-m", "tactr.cli", "sweep", "long.yaml", "--threads", "1"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=os.environ,
         # where the tests run in the background of a shell, they hand on that interrupts are ignored
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )  # fmt: skip
-    done = study / "long.zarr" / "status" / "c" / "1"
-    for _ in range(3000):
-        if done.exists():
-            break
-        time.sleep(0.02)
-    child.send_signal(signal.SIGINT)
-    out, err = child.communicate(timeout=60)
+    ) as child:  # fmt: skip
+        try:
+            done = study / "long.zarr" / "status" / "c" / "1"
+            for _ in range(3000):
+                if done.exists() or child.poll() is not None:
+                    break
+                time.sleep(0.02)
+            child.send_signal(signal.SIGINT)
+            out, err = child.communicate(timeout=60)
+        finally:
+            child.kill()
     assert child.returncode == 130
     assert out == ""
     assert "of 120000 configurations are in long.zarr" in err

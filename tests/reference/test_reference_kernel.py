@@ -26,7 +26,9 @@ def largest_distance(robot: Robot) -> float:
     return float(np.linalg.norm(slow.centreline - fast.centreline, axis=1).max())
 
 
-@pytest.mark.parametrize("first", range(0, 100, 10))
+@pytest.mark.parametrize(
+    "first", [*range(0, 50, 10), *(pytest.param(k, marks=pytest.mark.slow) for k in range(50, 100, 10))]
+)
 def test_straight_routed_robots(first: int) -> None:
     distances = {seed: largest_distance(random_straight_robot(seed)) for seed in range(first, first + 10)}
     assert {seed: far for seed, far in distances.items() if far > 1e-8} == {}

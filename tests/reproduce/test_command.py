@@ -74,8 +74,8 @@ def test_a_bar_on_a_terminal(tmp_path, capsys, monkeypatch, quick):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert main(["reproduce", "--out", str(tmp_path)]) == 0
     err = capsys.readouterr().err
-    assert "drawing [###" in err
-    assert err.endswith("\r\033[K")
+    assert "drawing" in err
+    assert "left:" in err
 
 
 def test_the_api():

@@ -7,7 +7,6 @@ import signal
 import threading
 import time
 from dataclasses import replace
-from typing import cast
 
 import numpy as np
 import pytest
@@ -49,22 +48,24 @@ def scheduler():
 
 
 def test_workers_killed_at_random(scheduler, tmp_path):
-    from distributed import Client
+    from distributed import Status
 
     sweep(STUDY, tmp_path / "alone.zarr", threads=1)
     random, killed, over = np.random.default_rng(os.getpid()), [], threading.Event()
     begun = threading.Event()
 
     def kill() -> None:
-        with Client(scheduler, set_as_default=False) as client:
-            begun.wait(60)
-            while not over.is_set() and len(killed) < 4:
-                pids = list(cast(dict, client.run(os.getpid)).values())
-                if pids:
-                    victim = int(random.choice(pids))
-                    os.kill(victim, signal.SIGKILL)
-                    killed.append(victim)
-                over.wait(random.uniform(0.3, 1.0))
+        begun.wait(60)
+        while not over.is_set() and len(killed) < 3:
+            # dask gives up a worker that is killed while it starts
+            running = [
+                n.pid for n in scheduler.workers.values() if n.process and n.process.status == Status.running
+            ]
+            if running:
+                victim = int(random.choice(running))
+                os.kill(victim, signal.SIGKILL)
+                killed.append(victim)
+            over.wait(random.uniform(0.3, 1.0))
 
     killer = threading.Thread(target=kill)
     killer.start()
@@ -91,6 +92,25 @@ def test_an_address_where_nothing_answers(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 0.5)
     with pytest.raises(TactrError, match="no scheduler of dask answers at tcp://127.0.0.1:1"):
         sweep(STUDY, tmp_path / "x.zarr", cluster="tcp://127.0.0.1:1")
+
+
+@pytest.mark.parametrize("address", ["nonsense", "tcp://host", "foo://host:1"])
+def test_what_is_no_address(address, tmp_path):
+    pytest.importorskip("distributed", reason="no distributed: pip install 'tactr[cluster]'")
+    with pytest.raises(TactrError, match=f"no scheduler of dask answers at {address}"):
+        sweep(STUDY, tmp_path / "x.zarr", cluster=address)
+
+
+def test_workers_that_never_come_back_are_told(tmp_path, monkeypatch):
+    """Nannies give up a worker that cannot start; without them nothing would ever come."""
+    distributed = pytest.importorskip("distributed", reason="no distributed: pip install 'tactr[cluster]'")
+    monkeypatch.setattr(cluster, "PATIENCE", 0.5)
+    with (
+        distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False) as empty,
+        distributed.Client(empty, set_as_default=False) as client,
+        pytest.raises(TactrError, match="all workers have died"),
+    ):
+        list(cluster._gathered(distributed, client, STUDY, [0, 1], own=True))
 
 
 def test_dask_of_the_caller_is_left_alone(scheduler, tmp_path):

@@ -86,8 +86,10 @@ def test_the_schema_refuses_what_the_reader_refuses():
     [
         ("from: -90 deg", "from: -90 mm", ':4: vary[0].from: "-90 mm" is a length; expected an angle'),
         ("from: -90 deg, ", "", ":4: vary[0]: has to; expected either from and to (sampled)"),
-        ("to: 90 deg", "to: -91 deg", ":4: vary[0].to: "),
         ("inner.rotation", "iner.rotation", ":4: vary[0].path: tubes has no 'iner'"),
+        ("inner.rotation", "inner.rotaton", ":4: vary[0].path: tubes.inner has no 'rotaton'"),
+        ("inner.rotation", "inner", "is not a number; expected a further step, one of name, length"),
+        ("to: 90 deg", "to: -91 deg", ':4: vary[0].to: "-91 deg" is not above "-90 deg"'),
         ("to: -300 mm", "to: 5 mm", ":5: vary[1].to: 0.005 m is too large"),
         ("count: 10", "count: ten", ':9: samples.count: found "ten"; expected a whole number'),
         ("seed:", "sed:", ":9: samples.sed: is not a known key (did you mean seed?)"),
@@ -107,6 +109,23 @@ def test_mistakes_are_named_with_their_line(tmp_path, old, new, told):
         load_study(path)
     assert str(caught.value).startswith(str(path))
     assert told in str(caught.value)
+
+
+def test_broken_rules_of_tubes_that_stay_are_told_with_their_numbers(tmp_path):
+    text = GOOD.replace("  - {path: tubes.middle.translation, from: -250 mm, to: -150 mm}\n", "")
+    for rule, told in (
+        ("exposed: 500 mm", "'middle' reaches 0.0"),
+        ("carriages: 300 mm", "behind 'outer', both stay there, and it must be at least 0.3 m"),
+    ):
+        with pytest.raises(FileError) as caught:
+            load_study(write(tmp_path, text.replace("carriages: 10 mm", rule)))
+        assert told in str(caught.value)
+
+
+def test_a_whole_number_may_be_written_with_an_exponent(tmp_path):
+    assert load_study(write(tmp_path, GOOD.replace("count: 10", "count: 1e3"))).samples == Samples(
+        1000, method="latin_hypercube", seed=7
+    )
 
 
 @pytest.mark.parametrize("text", ["", "robot: [", "x", "- 1", "\0"])

@@ -10,7 +10,7 @@ import pytest
 import xarray
 
 import tactr
-from tactr import FileError, RobotError
+from tactr import Annulus, FileError, Material, Robot, RobotError, Tube
 from tactr.statics.parameters import with_value
 from tactr.studies import Range, Samples, Study, Sweep, sweep
 from tactr.studies import store as store_module
@@ -117,6 +117,24 @@ def test_invalid_configurations_are_rows_too(tmp_path):
     names = np.array(found.status_names)[found.dataset.status.values]
     assert (width > bore).any()
     assert ((names == "invalid") == (width > bore * (1 + 1e-9))).all()
+
+
+def test_stepped_tubes_fit_or_are_invalid(tmp_path):
+    """The inner tube's wide part, to sigma = 0.1 m, must end before the outer one's narrow bore begins. The
+    ends of a range are not refused: what fits depends on the other tube."""
+    soft = Material(E=5e9, nu=0.3)
+    narrowing = [(0.0, Annulus(3e-3, 2.5e-3)), (0.1, Annulus(3e-3, 1.5e-3))]
+    thinning = [(0.0, Annulus(2e-3, 1e-3)), (0.1, Annulus(1.2e-3, 1e-3))]
+    outer = Tube("outer", length=0.2, section=narrowing, material=soft)
+    robot = Robot([outer, Tube("inner", length=0.3, section=thinning, material=soft)])
+    ranges = [Range(f"tubes.{name}.translation", -0.08, 0.0) for name in ("outer", "inner")]
+    found = sweep(Study(robot, ranges, samples=Samples(64)), tmp_path / "steps.zarr")
+    first, second = (found.dataset[axis.path].values for axis in ranges)
+    names = np.array(found.status_names)[found.dataset.status.values]
+    fits = second <= first
+    assert 20 < fits.sum() < 44
+    np.testing.assert_array_equal(names, np.where(fits, "converged", "invalid"))
+    assert np.isnan(found.dataset.tip_position.values[~fits]).all()
 
 
 def test_progress_counts_configurations(tendon_study, tmp_path):

@@ -23,10 +23,22 @@ def pendulum_base(tip: float, size: float) -> float:
     return float(path.y[0, -1])
 
 
+def pendulum_bases(tips: np.ndarray, size: float) -> np.ndarray:
+    """The same for many tips at once, (n,), coarser: between which of them a base angle is met."""
+    path = solve_ivp(
+        lambda _, y: np.concatenate([y[len(tips) :], size**2 * np.sin(y[: len(tips)])]),
+        (1.0, 0.0),
+        np.concatenate([tips, 0.0 * tips]),
+        rtol=1e-9,
+        atol=1e-9,
+    )
+    return path.y[: len(tips), -1]
+
+
 def pendulum_tips(angle: float, size: float) -> list[float]:
     """All tip angles in [0, 2 pi) whose base is at angle, up to whole turns; unwound to meet it exactly."""
     places = np.linspace(1e-3, 2 * math.pi + 1e-3, 401)
-    bases = np.array([pendulum_base(x, size) for x in places])
+    bases = pendulum_bases(places, size)
     tips = []
     for m in range(math.floor(bases.min() / math.tau) - 1, math.ceil(bases.max() / math.tau) + 2):
         missed = bases - angle - math.tau * m

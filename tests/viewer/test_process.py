@@ -22,12 +22,14 @@ VIEW = [sys.executable, "-m", "tactr.cli", "view", "two_tube_90", "--headless"]
 @pytest.fixture
 def running() -> Iterator[tuple[subprocess.Popen, str]]:
     process = subprocess.Popen(VIEW, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert process.stdout is not None
-    found = re.search(r"http://127\.0\.0\.1:\d+", process.stdout.readline())
-    assert found is not None
-    yield process, found[0]
-    process.kill()
-    process.wait()
+    try:
+        assert process.stdout is not None
+        found = re.search(r"http://127\.0\.0\.1:\d+", process.stdout.readline())
+        assert found is not None
+        yield process, found[0]
+    finally:
+        process.kill()
+        process.wait()
     for pipe in (process.stdout, process.stderr):
         if pipe is not None:
             pipe.close()

@@ -11,6 +11,7 @@ from tactr import _core
 from tactr.batch.items import Items
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
+from tactr.robot._bores import Clash, clashes
 from tactr.statics.actuation import displacements, innermost_place, rotations, tensions, translations
 from tactr.statics.assemble import assemble
 from tactr.statics.solve import residual_tolerance_of
@@ -55,6 +56,11 @@ class Design:
     def least_translation(self) -> np.ndarray:
         return np.array([-innermost_place(self.robot, tube) for tube in self.robot.tubes])
 
+    @cached_property
+    def clashes(self) -> list[Clash]:
+        """What stepped tubes must not do; empty where any insertion fits."""
+        return clashes(self.robot.tubes)
+
 
 def design_of(robot: Robot, tolerance: float) -> Design:
     """The robot made ready."""
@@ -68,6 +74,21 @@ def designs_of(items: Items, tolerance: float) -> tuple[list[Design | RobotError
     table = np.stack(list(items.parameters.values()), axis=1)
     _, first, index = np.unique(table, axis=0, return_index=True, return_inverse=True)
     return [_design(items, int(i), tolerance) for i in first], index.reshape(-1)
+
+
+def fitting(designs: list[Design | RobotError], index: np.ndarray, translation: np.ndarray) -> np.ndarray:
+    """Which items' tubes fit into each other, (count,); index (count,) as in ``designs_of``, translation
+    (count, tubes) m."""
+    fits = np.ones(len(index), dtype=bool)
+    stepped = {k: d for k, d in enumerate(designs) if isinstance(d, Design) and d.clashes}
+    if stepped:
+        order = np.argsort(index, kind="stable")
+        first = np.searchsorted(index[order], np.arange(len(designs) + 1))
+        for k, design in stepped.items():
+            rows = order[first[k] : first[k + 1]]
+            for clash in design.clashes:
+                fits[rows] &= ~clash.meets(translation[rows])
+    return fits
 
 
 def _design(items: Items, i: int, tolerance: float) -> Design | RobotError:

@@ -11,7 +11,7 @@ import numpy as np
 from tactr.errors import RobotError
 from tactr.robot import Robot
 from tactr.robot import _check as check
-from tactr.statics.parameters import value_of, with_value
+from tactr.statics.parameters import value_of, with_values
 
 Given = Mapping[str, Any] | Sequence[Any] | np.ndarray | None
 Columns = dict[str, np.ndarray]  # by name, one number for each item
@@ -28,14 +28,7 @@ class Items:
 
     def design(self, i: int) -> Robot:
         """The robot of item i before it is actuated. Raises RobotError."""
-        robot = self.base
-        for path, values in self.parameters.items():
-            try:
-                robot = with_value(robot, path, float(values[i]))
-            except RobotError as error:
-                error.owner = ", ".join(part for part in (error.owner, f"parameter {path!r}") if part)
-                raise
-        return robot
+        return with_values(self.base, {path: float(values[i]) for path, values in self.parameters.items()})
 
     def actuated(self, i: int, design: Robot) -> Robot:
         """The same at the item's actuation. Raises RobotError."""

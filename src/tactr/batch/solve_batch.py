@@ -10,7 +10,7 @@ import numpy as np
 
 from tactr import _core
 from tactr.batch.cuda import cuda_door
-from tactr.batch.designs import Design, designs_of
+from tactr.batch.designs import Design, designs_of, fitting
 from tactr.batch.items import Given, Items, items_of
 from tactr.batch.pulled import fill_from
 from tactr.batch.result import CODE, INVALID, Batch
@@ -129,6 +129,7 @@ class _Job:
         good = self.sound & np.isfinite(rows["rotation"]).all(axis=1)
         good &= (np.isfinite(tension) & (tension >= 0.0)).all(axis=1)
         good &= (np.isfinite(translation) & (translation >= least) & (translation <= 0.0)).all(axis=1)
+        good &= fitting(self.designs, self.index, translation)
         pulled = self._of_designs("displacement", len(tendons))
         profiled = self._of_designs("profiled", len(tendons)) == 1.0
         for j, tendon in enumerate(tendons):

@@ -12,7 +12,7 @@ from tactr.calibration.measurements import ACTUATION, Measurements
 from tactr.calibration.parameters import FRAME, ZERO, Free, vector_of
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
-from tactr.statics.parameters import with_value
+from tactr.statics.parameters import with_values
 from tactr.statics.rates import Rates, stands_alone
 from tactr.statics.rest import rest_lengths
 from tactr.statics.shape import Shape
@@ -44,7 +44,7 @@ class Model:
 
     def setting(self, values: np.ndarray) -> Setting:
         """What these values of the free numbers mean. Raises RobotError."""
-        robot, zero, frame = self.robot, np.zeros(len(self._names)), self.frame
+        changed, zero, frame = {}, np.zeros(len(self._names)), self.frame
         for free, value in zip(self.frees, values, strict=True):
             for path in free.paths:
                 if path in FRAME:
@@ -52,8 +52,8 @@ class Model:
                 elif path.endswith(f".{ZERO}"):
                     zero[self._names.index(path.split(".", 1)[1].rpartition(".")[0])] = value
                 else:
-                    robot = with_value(robot, path, float(value))
-        return Setting(robot, zero, frame)
+                    changed[path] = float(value)
+        return Setting(with_values(self.robot, changed), zero, frame)
 
     def predict(self, values: np.ndarray, tick: Ticker | None = None) -> np.ndarray:
         """Points in the sensor's axes, (n, k, 3) m; NaN in rows without an equilibrium."""

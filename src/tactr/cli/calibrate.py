@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tactr.cli.inputs import UsageError, read_length, read_robot
+from tactr.cli.progress import progress_bar
 from tactr.cli.solve import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -53,7 +52,12 @@ def run_calibrate(request: Request) -> int:
     robot, frame, starts = _set(robot, request.set)
     data = Measurements.read(request.data, columns=request.columns)
     parameters = _parameters(request, robot, starts)
-    with _progress() as progress:
+    with progress_bar("reading", time_left=False) as bar:  # passes: nobody knows how many
+
+        def show(name: str, row: int, rows: int) -> None:
+            if bar is not None:
+                bar(row + 1, rows, name)
+
         result = calibrate(
             robot,
             data,
@@ -64,7 +68,7 @@ def run_calibrate(request: Request) -> int:
             starts=request.starts,
             folds=_folds(request.folds),
             history=request.history,
-            progress=progress,
+            progress=show,
         )
     _write(result, request)
     return 0
@@ -185,22 +189,3 @@ def _frame_settings(frame: Frame) -> str:
         if value:
             parts.append(f'{path}="{value * factor:.6g} {unit}"')
     return " ".join(parts)
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[str, int, int], None] | None]:
-    """A bar on a terminal's stderr, or nothing."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("reading", total=None)
-
-        def show(name: str, row: int, rows: int) -> None:
-            bar.update(task, description=name, completed=row + 1, total=rows)
-
-        yield show

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tactr.cli.inputs import UsageError, read_length, read_robot
-from tactr.cli.progress import bar_with_time_left
+from tactr.cli.progress import progress_bar
 from tactr.cli.solve import PICTURES, check_target
 from tactr.errors import RobotError
 
@@ -48,7 +48,7 @@ def run_drive(request: Request) -> int:
     options = {}
     if request.tolerance is not None:
         options["tolerance"] = read_length("tolerance", request.tolerance)
-    with bar_with_time_left("driving") as bar:
+    with progress_bar("driving") as bar:
         driven = drive(robot, points, state=state, progress=bar, **options)
     good = next((k for k, text in enumerate(driven.failed) if text), len(driven))
     if good:

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import sys
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tactr.cli.inputs import UsageError
+from tactr.cli.progress import progress_bar
 from tactr.cli.report import aligned
 from tactr.errors import MissingExtra
 
 if TYPE_CHECKING:
     from tactr.reproduce import Reproduction
-
-BAR = 24
-EXPERIMENTS, FIGURES = "solving", "drawing"
 
 
 def run_reproduce(out: Path) -> int:
@@ -28,8 +25,10 @@ def run_reproduce(out: Path) -> int:
     _make(out)
     from tactr import reproduce
 
-    reproduction = reproduce.run(progress=_progress(EXPERIMENTS))
-    paths = reproduction.save(out, progress=_progress(FIGURES))
+    with progress_bar("solving") as bar:
+        reproduction = reproduce.run(progress=bar)
+    with progress_bar("drawing") as bar:
+        paths = reproduction.save(out, progress=bar)
     _print_summary(reproduction)
     for path in paths:
         print(f"wrote {path}")
@@ -44,19 +43,6 @@ def _make(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"--out: {folder} cannot be made: {error.strerror or error}") from None
-
-
-def _progress(what: str):
-    """A bar on stderr where that is a terminal; its last call wipes it."""
-    if not sys.stderr.isatty():
-        return None
-
-    def show(done: int, count: int) -> None:
-        full = BAR * done // count
-        bar = f"{what} [{'#' * full}{'.' * (BAR - full)}] {done}/{count}"
-        print(f"\r\033[K{bar if done < count else ''}", end="", file=sys.stderr, flush=True)
-
-    return show
 
 
 def _print_summary(reproduction: Reproduction) -> None:

@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from tactr.cli.inputs import UsageError, read_length
-from tactr.cli.progress import bar_with_time_left
+from tactr.cli.progress import progress_bar
 from tactr.cli.solve import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -49,9 +49,11 @@ def run_sweep(request: Request) -> int:
     counts: list[int] = []  # of configurations that are there: at first, and after each chunk
     options = {"threads": request.threads, "workers": request.workers, "cluster": request.cluster}
     try:
-        with bar_with_time_left("solving") as bar:
+        with progress_bar("solving") as bar:
 
             def show(done: int, count: int) -> None:
+                if not counts:  # the store is made, nothing is solved yet
+                    _check_colour(out, request)
                 counts.append(done)
                 if bar is not None:
                     bar(done, count)
@@ -65,6 +67,15 @@ def run_sweep(request: Request) -> int:
         return 130
     fresh = counts[-1] - counts[0] if counts else 0
     return _report(found, request, voxel, fresh, perf_counter() - began)
+
+
+def _check_colour(store: Path, request: Request) -> None:
+    """Before the work, so that a wrong name is not found out after it. Raises RobotError."""
+    if request.plot is not None:
+        from tactr.studies import Sweep
+        from tactr.studies.derived import named
+
+        named(Sweep(store), request.colour)
 
 
 def _opened(request: Request) -> Sweep:

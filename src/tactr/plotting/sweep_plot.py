@@ -118,10 +118,12 @@ def _histogram(axes: Any, values: np.ndarray, shown: Named) -> None:
 
 
 def _title(sweep: Sweep, rows: np.ndarray, good: np.ndarray, found: np.ndarray) -> str:
-    drawn = f"{len(rows)} of {sweep.count}" if len(rows) < sweep.count else f"{sweep.count}"
+    drawn = f"{sweep.count} configurations"
+    if len(rows) < sweep.count:
+        drawn = f"{len(rows)} of {drawn} drawn"
     unstable = int((found & ~good).sum())
     grey = f", {unstable} unstable (grey)" if unstable else ""
     none = int((~found).sum())
-    return f"{sweep.dataset.attrs['title']}: {drawn} configurations, {int(good.sum())} stable{grey}" + (
+    return f"{sweep.dataset.attrs['title']}: {drawn}, {int(good.sum())} stable{grey}" + (
         f", {none} without a shape" if none else ""
     )

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from tactr.errors import RobotError
 from tactr.robot import Robot, Stiffness, Straight, Tendon, Tube
-from tactr.statics.parameters import value_of, with_value
+from tactr.statics.parameters import value_of, with_values
 
 DIAMETER, SHARE = 0.05, 0.1
 LENGTH, ANGLE = 1e-3, math.radians(5)
@@ -35,11 +35,9 @@ class Assumption:
     def applied(self, robot: Robot, factor: float) -> Robot | None:
         """The robot with `factor` times the change; None where that is no robot."""
         try:
-            for path, step in self.steps:
-                robot = with_value(robot, path, value_of(robot, path) + factor * step)
+            return with_values(robot, {p: value_of(robot, p) + factor * step for p, step in self.steps})
         except RobotError:
             return None
-        return robot
 
 
 def assumed_fields(robot: Robot) -> dict[str, str]:

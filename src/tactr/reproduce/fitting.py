@@ -10,7 +10,7 @@ from tactr.errors import NotConverged
 from tactr.reproduce.records import Fit
 from tactr.robot import Robot
 from tactr.statics import Shape, solve
-from tactr.statics.parameters import value_of, with_value
+from tactr.statics.parameters import value_of, with_values
 
 MET = 1e-9  # m
 MOST_STEPS = 30
@@ -26,9 +26,7 @@ def displacement(shape: Shape) -> float:
 
 def scaled(robot: Robot, paths: Direction, factor: float) -> Robot:
     """The robot with the numbers at the paths times a factor. Raises RobotError."""
-    for path in paths:
-        robot = with_value(robot, path, factor * value_of(robot, path))
-    return robot
+    return with_values(robot, {path: factor * value_of(robot, path) for path in paths})
 
 
 def fit(

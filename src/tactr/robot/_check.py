@@ -51,14 +51,7 @@ def show(value: object, unit: str = "") -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _bounds(
-    above: float | None, least: float | None, below: float | None, most: float | None, unit: str
-) -> str:
-    parts = []
-    for word, bound in (("above", above), ("at least", least), ("below", below), ("at most", most)):
-        if bound is not None:
-            parts.append(f"{word} {show(bound, unit if bound else '')}")
-    return " and ".join(parts)
+Bounds = tuple[float | None, float | None, float | None, float | None]  # above, least, below, most
 
 
 def real(
@@ -73,25 +66,22 @@ def real(
     hint: str = "",
 ) -> float:
     """``value`` as a finite float within the bounds given; ``hint`` is appended to what would be right."""
-    kind = f"a finite number in {unit}" if unit else "a finite number"
-    bounds = _bounds(above, least, below, most, unit)
-    expected = " ".join(part for part in (kind, bounds) if part) + (f" ({hint})" if hint else "")
-    number = _plain(field, value, unit, expected)
-    if not math.isfinite(number):
-        raise RobotError(field, f"{show(number)} is not a finite number", expected, value=value)
-    if (above is not None and number <= above) or (least is not None and number < least):
-        raise RobotError(field, f"{show(number, unit)} is too small", expected, value=value)
-    if (below is not None and number >= below) or (most is not None and number > most):
-        raise RobotError(field, f"{show(number, unit)} is too large", expected, value=value)
+    number = value if type(value) is float else _plain(field, value, unit, (above, least, below, most), hint)
+    small = (above is not None and number <= above) or (least is not None and number < least)
+    large = (below is not None and number >= below) or (most is not None and number > most)
+    if small or large or not math.isfinite(number):
+        found = f"{show(number, unit)} is too {'small' if small else 'large'}"
+        if not math.isfinite(number):
+            found = f"{show(number)} is not a finite number"
+        raise RobotError(field, found, _expected(unit, (above, least, below, most), hint), value=value)
     return number
 
 
-def _plain(field: str, value: object, unit: str, expected: str) -> float:
-    if type(value) is float:
-        return value
+def _plain(field: str, value: object, unit: str, bounds: Bounds, hint: str) -> float:
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value.item()
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
+        expected = _expected(unit, bounds, hint)
         found = f"{show(value)} is not a number"
         if isinstance(value, str):
             found = f"{show(value)} is text, not a number"
@@ -101,6 +91,18 @@ def _plain(field: str, value: object, unit: str, expected: str) -> float:
         return float(value)
     except OverflowError:
         return math.inf
+
+
+def _expected(unit: str, bounds: Bounds, hint: str) -> str:
+    parts = [f"a finite number in {unit}" if unit else "a finite number"]
+    limits = [
+        f"{word} {show(bound, unit if bound else '')}"
+        for word, bound in zip(("above", "at least", "below", "at most"), bounds, strict=True)
+        if bound is not None
+    ]
+    if limits:
+        parts.append(" and ".join(limits))
+    return " ".join(parts) + (f" ({hint})" if hint else "")
 
 
 def row(field: str, value: object, expected: str) -> list[Any]:

@@ -6,14 +6,11 @@ from collections.abc import Sequence
 
 from tactr.errors import RobotError
 from tactr.robot import _check as check
+from tactr.robot._bores import check_fit
 from tactr.robot.friction import check_along
 from tactr.robot.load import DistributedLoad, Gravity, Load, PointLoad
-from tactr.robot.parts import Part
 from tactr.robot.tendon import Tendon
 from tactr.robot.tube import Tube
-
-ROUNDING = 1e-9
-"""Relative slack of a fit: 0.7 mm and 700 um differ in the last digit."""
 
 LEAST_REACH = 1e-6
 """Length outside the guide that a tube must have, m: less than a micrometre is nothing."""
@@ -25,7 +22,7 @@ def check_robot(tubes: Sequence[Tube], tendons: Sequence[Tendon], loads: Sequenc
     _check_names("tendons", [tendon.name for tendon in tendons])
     for k, tube in enumerate(tubes):
         _check_tip(k, tube)
-    _check_fit(tubes)
+    check_fit(tubes)
     for k, tendon in enumerate(tendons):
         _check_tendon(f"tendons[{k}]", tendon, tubes)
     for k, load in enumerate(loads):
@@ -52,43 +49,6 @@ def _check_tip(k: int, tube: Tube) -> None:
             f"a translation above {check.show(-tube.length, 'm')} and at most 0",
             value=tube.translation,
         )
-
-
-def _check_fit(tubes: Sequence[Tube]) -> None:
-    for j in range(1, len(tubes)):
-        # all tubes are present at the guide's exit; the nearest one around is the one to name
-        for i in range(j - 1, -1, -1):
-            _check_pair(i, tubes[i], j, tubes[j])
-
-
-def _check_pair(i: int, outer: Tube, j: int, inner: Tube) -> None:
-    for around in outer.parts:
-        for part in inner.parts:
-            start = max(around.start + outer.translation, part.start + inner.translation)
-            if start < min(around.end + outer.translation, part.end + inner.translation):
-                _check_sections(i, outer, around, j, inner, part)
-
-
-def _check_sections(i: int, outer: Tube, around: Part, j: int, inner: Tube, part: Part) -> None:
-    bore, width = around.section.inner_diameter, part.section.outer_diameter
-    if bore is None or width is None or width <= bore * (1 + ROUNDING):
-        return
-    place = part.field.removeprefix("section").removesuffix("[1]")
-    field = f"tubes[{j}].section{place}.outer_diameter" if place else f"tubes[{j}].outer_diameter"
-    if bore == 0:
-        raise RobotError(
-            field,
-            f"{inner.name!r} lies inside tubes[{i}] {outer.name!r}, which is solid",
-            "the solid rod last: tubes are listed outermost first",
-            value=width,
-        )
-    raise RobotError(
-        field,
-        f"{check.show(width, 'm')} does not fit into the bore {check.show(bore, 'm')} "
-        f"of tubes[{i}] {outer.name!r}",
-        f"at most {check.show(bore, 'm')}, tubes listed outermost first",
-        value=width,
-    )
 
 
 def _find(field: str, name: str, tubes: Sequence[Tube]) -> Tube:

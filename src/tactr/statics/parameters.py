@@ -8,14 +8,15 @@ Sections, routings and rest shapes that were fitted to functions change with the
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
 from tactr.robot import Robot, TensionProfile
+from tactr.robot import _check as check
 from tactr.statics.assemble import tables
 
 RELATIVE_STEP, LEAST_STEP = 1e-3, 1e-6
@@ -39,16 +40,25 @@ def value_of(robot: Robot, path: str) -> float:
     for k, step in enumerate(steps):
         found = _child(found, step, path, steps[:k])
     if isinstance(found, bool) or not isinstance(found, int | float):
-        raise RobotError(
-            path, f"{found!r} is not a number", "the path of one number of the robot", value=path
-        )
+        further = _options(found)
+        expected = "a further step, one of " + ", ".join(further) if further else "the path of a number"
+        raise RobotError(path, f"{check.show(found)} is not a number", expected, value=path)
     return float(found)
 
 
 def with_value(robot: Robot, path: str, value: float) -> Robot:
     """The robot with another number at a path. Raises RobotError."""
-    value_of(robot, path)
-    return _replaced(robot, path.split("."), value, path)
+    return with_values(robot, {path: value})
+
+
+def with_values(robot: Robot, values: Mapping[str, float]) -> Robot:
+    """The robot with other numbers at several paths, all changed at once: only together need they make a
+    robot. Raises RobotError, whose owner names the paths."""
+    tree = _Tree({}, [])
+    for path, value in values.items():
+        value_of(robot, path)
+        tree.plant(path, value)
+    return _replaced(robot, tree)
 
 
 def place_of(robot: Robot, path: str) -> tuple[str, str, int] | None:
@@ -81,10 +91,7 @@ def rates_of(robot: Robot, *paths: str) -> _core.PreparedRobot:
     step = max(RELATIVE_STEP * max(map(abs, values)), LEAST_STEP)
 
     def at(shift: float) -> Tables:
-        moved = robot
-        for path, value in zip(paths, values, strict=True):
-            moved = with_value(moved, path, value + shift)
-        return tables(moved)
+        return tables(with_values(robot, {p: value + shift for p, value in zip(paths, values, strict=True)}))
 
     rates = _differences(at, base, step)
     for name, columns in WHOLE_NUMBERS.items():
@@ -149,11 +156,37 @@ def _options(owner: Any) -> dict[str, tuple[Any, Any]]:
     return {}
 
 
-def _replaced(owner: Any, steps: list[str], value: float, path: str) -> Any:
-    if not steps:
-        return value
-    child, key = _options(owner)[steps[0]]
-    changed = _replaced(child, steps[1:], value, path)
+class _Tree(NamedTuple):
+    """New numbers by the steps to them, and the paths of all of them."""
+
+    steps: dict[str, _Tree | float]
+    paths: list[str]
+
+    def plant(self, path: str, value: float) -> None:
+        *way, last = path.split(".")
+        tree = self
+        tree.paths.append(path)
+        for step in way:
+            below = tree.steps.setdefault(step, _Tree({}, []))
+            assert isinstance(below, _Tree)
+            tree = below
+            tree.paths.append(path)
+        tree.steps[last] = value
+
+
+def _replaced(owner: Any, new: _Tree | float) -> Any:
+    if not isinstance(new, _Tree):
+        return new
+    options = _options(owner)
+    changed = {options[step][1]: _replaced(options[step][0], below) for step, below in new.steps.items()}
     if isinstance(owner, tuple):
-        return (*owner[:key], changed, *owner[key + 1 :])
-    return dataclasses.replace(owner, **{key: changed})
+        return tuple(changed.get(k, item) for k, item in enumerate(owner))
+    try:
+        return dataclasses.replace(owner, **changed)
+    except RobotError as error:
+        error.owner = ", ".join(part for part in (error.owner, *map(_parameter, new.paths)) if part)
+        raise
+
+
+def _parameter(path: str) -> str:
+    return f"parameter {path!r}"

@@ -12,7 +12,8 @@ import numpy as np
 
 from tactr import _core
 from tactr.errors import RobotError
-from tactr.robot import Robot, TensionProfile, Tube
+from tactr.robot import Robot, TensionProfile
+from tactr.robot._bores import clashes
 from tactr.robot.load import Load
 from tactr.robot.robot import Displacements, Numbers, Tensions
 from tactr.statics.actuation import (
@@ -138,10 +139,9 @@ class Prepared:
         self._least_rotation = [-math.inf] * len(robot.tubes)
         self._displacement = displacements(robot)
         self._compliance = np.array([tendon.compliance for tendon in robot.tendons], dtype=float)
-        # whether a stepped tube fits where it is moved to is seen by a closer look
+        stepped = bool(clashes(robot.tubes))  # where they fit is seen by a closer look
         self._least_translation = [
-            math.inf if any(map(_is_stepped, robot.tubes)) else -innermost_place(robot, tube)
-            for tube in robot.tubes
+            math.inf if stepped else -innermost_place(robot, tube) for tube in robot.tubes
         ]
 
     @cached_property
@@ -313,10 +313,6 @@ class Prepared:
             return False
         values = given.tolist()  # too few for numpy to pay
         return all(math.isfinite(x) and low <= x <= most for x, low in zip(values, least, strict=True))
-
-
-def _is_stepped(tube: Tube) -> bool:
-    return len({(part.section.inner_diameter, part.section.outer_diameter) for part in tube.parts}) > 1
 
 
 def residual_tolerance_of(robot: Robot, tolerance: float) -> float:

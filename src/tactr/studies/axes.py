@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from tactr.errors import RobotError
 from tactr.robot import Robot
 from tactr.robot import _check as check
+from tactr.robot._bores import Misfit
 from tactr.statics.parameters import place_of, value_of, with_value
 from tactr.studies.unit_samples import METHODS
 
@@ -94,18 +95,25 @@ def actuator(robot: Robot, path: str) -> tuple[str, int] | None:
     return place[1:] if place is not None and ACTUATORS.get(place[1]) == place[0] else None
 
 
+def check_path(robot: Robot, path: str) -> None:
+    """Raise RobotError unless the robot has such a number."""
+    if actuator(robot, path) is None:
+        try:
+            value_of(robot, path)
+        except RobotError as error:
+            raise RobotError("path", error.problem, error.expected, value=path) from None
+
+
 def check_axis(robot: Robot, axis: Axis) -> None:
     """Raise RobotError, about low, high or values[k], unless the robot can have every value."""
+    check_path(robot, axis.path)
     found = actuator(robot, axis.path)
-    if found is None:
-        try:
-            value_of(robot, axis.path)
-        except RobotError as error:
-            raise RobotError("path", error.problem, error.expected, value=axis.path) from None
     for field, value in _entries(axis):
         try:
             _moved(robot, axis.path, value)
         except RobotError as error:
+            if isinstance(error, Misfit) and found is not None:
+                continue  # stepped tubes: where the others are then decides
             raise RobotError(field, error.problem, error.expected, value=value) from None
 
 

@@ -6,8 +6,9 @@ chunk goes to another one. Workers send arrays; only the process that asked writ
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
+from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 from tactr.errors import MissingExtra, TactrError
@@ -42,7 +43,7 @@ def cluster_chunks(
     processes on this machine. Raises ClusterError, MissingExtra."""
     distributed = _import()
     with _client(distributed, cluster, workers) as client:
-        yield from _gathered(distributed, client, study, list(chunks))
+        yield from _gathered(distributed, client, study, list(chunks), own=cluster is None)
 
 
 def work(study: Study, chunk: int, wanted: str) -> Arrays:
@@ -53,25 +54,25 @@ def work(study: Study, chunk: int, wanted: str) -> Arrays:
 
 
 def _gathered(
-    distributed: Any, client: Any, study: Study, waiting: list[int]
+    distributed: Any, client: Any, study: Study, waiting: list[int], *, own: bool
 ) -> Generator[tuple[int, Arrays], None, None]:
     waiting.reverse()
     tries: dict[int, int] = {}
     running: dict[Any, int] = {}
-    arrived = distributed.as_completed(loop=client.loop)
+    arrived: SimpleQueue[Any] = SimpleQueue()
 
     def ask(chunk: int) -> None:
         future = client.submit(work, study, chunk, versions(), pure=False, retries=0)
         running[future] = chunk
-        arrived.add(future)
+        future.add_done_callback(arrived.put)
 
     while waiting or running:
         while waiting and len(running) < AHEAD * max(1, sum(client.nthreads().values())):
             ask(waiting.pop())
-        future = next(arrived)
+        future = _waited_for(client, lambda patience: arrived.get(timeout=patience), own)
         chunk = running.pop(future)
         try:
-            arrays = future.result()
+            arrays = _waited_for(client, future.result, own)  # from a worker that may be dead by now
         except (distributed.KilledWorker, distributed.CancelledError, distributed.comm.CommClosedError):
             tries[chunk] = tries.get(chunk, 0) + 1
             if tries[chunk] >= MOST_TRIES:
@@ -82,6 +83,23 @@ def _gathered(
             continue
         future.release()
         yield chunk, arrays
+
+
+def _waited_for(client: Any, get: Callable[[float], Any], own: bool) -> Any:
+    """What get gives, however long it takes: to a cluster from elsewhere workers may come back at any time.
+    But nothing brings them back to our own once dask has given up starting them."""
+    while True:
+        try:
+            return get(PATIENCE)
+        except (TimeoutError, Empty):
+            if not own:
+                continue
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            raise ClusterError(
+                "all workers have died and did not come back; the same command goes on with what is done"
+            ) from None
 
 
 # A default client would send the caller's own dask work, also what xarray saves, to this cluster.
@@ -100,6 +118,7 @@ def _client(distributed: Any, cluster: str | None, workers: int | None) -> Itera
             yield client
         return
     try:
+        distributed.comm.get_address_host_port(cluster)  # a Client that stumbles over it leaves a traceback
         client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:
         raise ClusterError(f"no scheduler of dask answers at {cluster}: {error}") from None

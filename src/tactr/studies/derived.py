@@ -90,8 +90,10 @@ def _array(sweep: Sweep, name: str) -> str:
 def _check(sweep: Sweep, name: str) -> None:
     known = names(sweep)
     if name not in known:
-        expected = check.near(name, known)
-        raise RobotError("quantity", f"the sweep has no {check.show(name)}", expected, value=name)
+        problem, expected = f"the sweep has no {check.show(name)}", check.near(name, known)
+        if name in _NEEDS:
+            problem += f", which needs the output {_NEEDS[name]}"
+        raise RobotError("quantity", problem, expected, value=name)
 
 
 def _jacobian(sweep: Sweep, rows: Rows) -> np.ndarray:
@@ -108,6 +110,15 @@ def _condition(sweep: Sweep, rows: Rows) -> np.ndarray:
 
 
 _UNITS = {"manipulability": "m", "isotropy": "1", "condition": "1", "tip_stiffness": "N/m"}
+_NEEDS = {
+    "manipulability": "jacobian",
+    "isotropy": "jacobian",
+    "condition": "jacobian",
+    "tip_stiffness": "compliance",
+    "stability_margin": "stability",
+    "stable": "stability",
+    "energy": "energy",
+}
 _COMPUTED: dict[str, Callable[[Sweep, Rows], np.ndarray]] = {
     "manipulability": lambda sweep, rows: measures.manipulability(_jacobian(sweep, rows)),
     "isotropy": lambda sweep, rows: measures.isotropy(_jacobian(sweep, rows)),

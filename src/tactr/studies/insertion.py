@@ -9,7 +9,7 @@ from dataclasses import KW_ONLY, dataclass
 import numpy as np
 
 from tactr.errors import RobotError
-from tactr.robot import Robot
+from tactr.robot import Robot, Tube
 from tactr.robot import _check as check
 from tactr.studies.chain import Chain
 
@@ -55,7 +55,7 @@ def segments(
     least, most = _differences(robot, rules)
     for i in range(len(kept) - 1):  # what stays where it is bounds its neighbours
         if i not in ranges and i + 1 not in ranges and not least[i] <= low[i] - low[i + 1] <= most[i]:
-            raise _impossible(f"tubes {robot.tubes[i].name!r} and {robot.tubes[i + 1].name!r} break them")
+            raise _impossible(_broken(robot.tubes[i], robot.tubes[i + 1], rules))
         if i not in ranges:
             low[i + 1], high[i + 1] = _cut(
                 i + 1 in ranges, low, high, i + 1, low[i] - most[i], low[i] - least[i]
@@ -82,6 +82,17 @@ def _differences(robot: Robot, rules: InsertionOrder) -> tuple[np.ndarray, np.nd
     least = np.full(count, -math.inf if rules.carriages is None else rules.carriages)
     most = np.full(count, math.inf) if rules.exposed is None else np.diff(lengths) - rules.exposed
     return least, most
+
+
+def _broken(outer: Tube, inner: Tube, rules: InsertionOrder) -> str:
+    """By two tubes that both stay where they are."""
+    exposed, behind = inner.tip - outer.tip, outer.translation - inner.translation
+    found = f"{inner.name!r} reaches {check.show(exposed, 'm')} further out than {outer.name!r}"
+    wanted = rules.exposed
+    if wanted is None or exposed >= wanted:
+        found = f"{inner.name!r} starts {check.show(behind, 'm')} behind {outer.name!r}"
+        wanted = rules.carriages
+    return f"{found}, both stay there, and it must be at least {check.show(wanted, 'm')}"
 
 
 def _cut(

@@ -16,12 +16,14 @@ from tactr.studies.unit_samples import METHODS
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Whole:
-    """A whole number from least to most."""
+    """A whole number from least to most; 1e5 is one, too."""
 
     least: int
     most: int
 
     def read(self, value: Any, path: DataPath, report: Report) -> int:
+        if isinstance(value, float) and value.is_integer():
+            value = int(value)
         if isinstance(value, bool) or not isinstance(value, int) or not self.least <= value <= self.most:
             report(path, f"found {show(value)}", f"a whole number from {self.least} to {self.most}")
             return self.least

@@ -15,8 +15,9 @@ from tactr.io.document import DataPath, Document, Problem, ProblemsFound, read_t
 from tactr.io.fields import Quantity
 from tactr.io.file_error import file_error
 from tactr.io.path_kinds import kind_of
+from tactr.io.units import show
 from tactr.robot import Robot
-from tactr.studies.axes import Axis, Range, Samples, Values
+from tactr.studies.axes import Axis, Range, Samples, Values, check_path
 from tactr.studies.insertion import InsertionOrder
 from tactr.studies.layout import STUDY
 from tactr.studies.study import Study
@@ -97,6 +98,9 @@ class _Reading:
     def _axis(self, robot: Robot, k: int, entry: dict[str, Any]) -> Axis | None:
         kind, place = Quantity(kind_of(robot, entry["path"])), ("vary", k)
         before = len(self._problems)
+        self._tried(lambda: check_path(robot, entry["path"]), *place)
+        if self._problems[before:]:
+            return None
         if "values" in entry:
             values = [
                 kind.read(value, (*place, "values", j), self._report)
@@ -109,6 +113,11 @@ class _Reading:
             )
         low, high = (kind.read(entry[key], (*place, key), self._report) for key in ("from", "to"))
         if self._problems[before:]:
+            return None
+        if not low < high:
+            self._report(
+                (*place, "to"), f"{show(entry['to'])} is not above {show(entry['from'])}", "from below to"
+            )
             return None
         sampled = self._tried(lambda: Range(entry["path"], low, high), "vary", k)
         if "points" not in entry or sampled is None:

@@ -100,18 +100,16 @@ def open_store(path: Path, study: Study, template: Any) -> Store:
 
 def read_attributes(path: Path) -> dict[str, Any]:
     """Those of a store. Raises FileError for what is none."""
-    return dict(_group(import_zarr(), path).attrs)
+    return dict(_group(import_zarr(), path, "a folder that tactr sweep wrote").attrs)
 
 
-def _group(zarr: Any, path: Path) -> Any:
+def _group(zarr: Any, path: Path, expected: str = "another name for the results") -> Any:
     try:
         group = zarr.open_group(path, mode="r+", use_consolidated=False)
     except (OSError, ValueError):  # zarr's own errors are ValueErrors
         group = None
     if group is None or group.attrs.get("contents") != WHAT:
-        raise FileError(
-            "is there, and is no store of a sweep", path=path, expected="another name for the results"
-        )
+        raise FileError("is there, and is no store of a sweep", path=path, expected=expected)
     return group
 
 
