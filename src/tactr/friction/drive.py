@@ -145,7 +145,7 @@ class _Driver:
             [self._near.found, *self._past],
             self._stride,
             self._numbers[first : first + AT_ONCE],
-            (*LIMITS, SHORTEST_STEP, CAREFUL, STRETCH),
+            (LIMITS.missed, LIMITS.turn, SHORTEST_STEP, CAREFUL, STRETCH),
         )
         reached, still = [], np.zeros(len(self._robot.tubes))
         for given, (found, steps, heats, creeps, seconds) in zip(
