@@ -3,6 +3,8 @@
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
@@ -10,11 +12,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "bind_arrays.hpp"
 #include "friction_step.hpp"
+#include "friction_way.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -155,6 +159,36 @@ nb::tuple step(const PreparedRobot& plain, const Channels& channels, const nb::o
     return nb::make_tuple(settled, rounds->history_missed, spent.heat, spent.creep);
 }
 
+/// points: all numbers of each. cuts: history missed and turn, the shortest step, how much shorter than may be, stretch.
+nb::tuple way(const PreparedRobot& plain, const Channels& channels, const nb::object& old,
+              std::vector<std::shared_ptr<const tactr::FrictionSettled>> found, double stride, const Table& points, double tolerance,
+              double residual_tolerance, const std::tuple<double, double, double, double, double>& cuts) {
+    if (found.empty()) throw std::invalid_argument("a way starts somewhere");
+    auto curves = curves_of(old);
+    if (curves.size() != channels.list.size()) throw std::invalid_argument("one old profile for each channel");
+    for (const auto& settled : found)
+        if (settled->at.size() != points.shape(1) || points.shape(1) < plain.tendons.size() + 2 * plain.tubes.size())
+            throw std::invalid_argument("places of another robot");
+    tactr::Settings settings;
+    settings.tolerance = tolerance;
+    settings.residual_tolerance = residual_tolerance;
+    settings.stay = true;
+    const auto [missed, turn, shortest, careful, stretch] = cuts;
+    tactr::FrictionWay way(plain, channels.list, settings, {{missed, turn}, shortest, careful, stretch}, std::move(curves), std::move(found), stride);
+    std::vector<tactr::WayPoint> reached;
+    {
+        nb::gil_scoped_release release;
+        for (size_t k = 0; k < points.shape(0); ++k) {
+            tactr::WayPoint point;
+            if (!way.reach({&points(k, 0), &points(k, 0) + points.shape(1)}, point)) break;
+            reached.push_back(std::move(point));
+        }
+    }
+    nb::list out;
+    for (auto& point : reached) out.append(nb::make_tuple(point.settled, point.steps, point.spent.heat, point.spent.creep, point.seconds));
+    return nb::make_tuple(out, way.found, way.stride);
+}
+
 }  // namespace
 
 namespace tactr {
@@ -214,6 +248,9 @@ void bind_friction(nb::module_& m) {
     m.def("tendon_friction_step", &step, "plain"_a, "channels"_a, "old"_a, "near"_a, "past"_a, "at"_a, "tension"_a, "rotation"_a,
           "translation"_a, "tolerance"_a, "residual_tolerance"_a, "limits"_a.none(),
           "The next equilibrium, None: not found or beyond limits, of history missed and turn; what was missed; heat and creep.");
+    m.def("tendon_friction_way", &way, "plain"_a, "channels"_a, "old"_a, "found"_a, "stride"_a, "points"_a, "tolerance"_a,
+          "residual_tolerance"_a, "cuts"_a,
+          "Points that were reached: equilibrium, steps, heat and creep, seconds; what was found last, the latest first; stride.");
     m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after, double enough) {
         return FrictionHistory(channels.list, before).missed(after.wraps, after.solution.tension, enough);
     }, "channels"_a, "before"_a, "after"_a, "enough"_a, "What one step misses of log tension that small ones would have seen.");

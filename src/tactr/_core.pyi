@@ -207,6 +207,24 @@ def tendon_friction_step(
     """The next equilibrium; what was missed of its history; heat, J, and creep, m, by channel. limits: of
     history missed and turn, rad; None: not found, or beyond them, or no longer stable."""
 
+def tendon_friction_way(
+    plain: PreparedRobot,
+    channels: FrictionChannels,
+    old: FrictionSettled | list,
+    found: list[FrictionSettled],
+    stride: float,
+    points: np.ndarray,
+    tolerance: float,
+    residual_tolerance: float,
+    cuts: tuple[float, float, float, float, float],
+) -> tuple[
+    list[tuple[FrictionSettled, int, list[float], list[float], float]], list[FrictionSettled], float
+]:
+    """Along points (k, numbers), as far as they are reached: equilibrium, steps, heat, J, and creep, m, by
+    channel, seconds; what was found last, and the stride to go on with. found: where the way starts, and
+    what was found before, the latest first. cuts: limits of history missed and of turn, rad, of a step, the
+    shortest of the way between two points, and how careful and stretched steps are."""
+
 def friction_heat(
     channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled
 ) -> tuple[list[float], list[float]]:

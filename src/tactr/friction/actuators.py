@@ -31,6 +31,12 @@ class Actuators:
         rows = zip(points.tension, points.rotation, points.translation, points.displacement, strict=True)
         return [Actuators(*row) for row in rows]
 
+    @staticmethod
+    def numbers(points: PathPoints) -> np.ndarray:
+        """All numbers at every point of a path, as ``flat``."""
+        rows = points.tension, points.rotation, points.translation, points.displacement
+        return np.nan_to_num(np.hstack(rows))
+
     def towards(self, other: Actuators, part: float) -> Actuators:
         """Part of the way to another."""
         if part == 1.0:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from math import ceil, inf, sqrt
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
+from tactr import _core
 from tactr.errors import RobotError
 from tactr.friction.actuators import Actuators, Plays
 from tactr.friction.driven import Driven
@@ -19,7 +21,7 @@ from tactr.friction.profiles import GivenProfiles
 from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
 from tactr.robot.friction import rubs
-from tactr.statics.path import Path, path_points
+from tactr.statics.path import Path, PathPoints, path_points
 from tactr.statics.pulls import Pulled
 from tactr.statics.rest import pulls_from
 from tactr.statics.shape import Shape
@@ -28,6 +30,7 @@ from tactr.statics.solve import Prepared
 LIMITS = Limits(missed=1e-4, turn=0.3)
 SHORTEST_STEP = 1.0 / 32  # of the way between two points
 CAREFUL = 0.9  # of the longest step
+AT_ONCE = 64  # points between which nobody is told of progress
 STRETCH = 0.2  # of a step, by which those on a way may be longer to come out even
 
 
@@ -58,7 +61,7 @@ def drive(
     prepared = Prepared(points.first, tolerance=tolerance, stations=stations)
     if state is not None:
         state.fits(robot)
-    return _Driver(prepared, Actuators.along(points)).run(state, progress)
+    return _Driver(prepared, points).run(state, progress)
 
 
 def _check(robot: Robot) -> None:
@@ -72,44 +75,88 @@ def _check(robot: Robot) -> None:
             )
 
 
+@dataclass(frozen=True, eq=False)
+class _Reached:
+    """A point; or the state before it, and no equilibrium. steps: on the way to it, and what they cost, by
+    channel and by tube; seconds: that it took."""
+
+    state: DriveState
+    settled: Settled | None
+    steps: int
+    heats: list[float]
+    creeps: list[float]
+    tube_heats: np.ndarray
+    seconds: float
+
+
 class _Driver:
-    def __init__(self, prepared: Prepared, points: list[Actuators]) -> None:
-        self._prepared, self._points = prepared, points
+    def __init__(self, prepared: Prepared, path: PathPoints) -> None:
+        self._prepared, self._points, self._numbers = prepared, Actuators.along(path), Actuators.numbers(path)
         self._robot = prepared.robot
         self._plays = Plays.of(self._robot)
-        self._pulled = ~np.isnan(points[0].displacement)
+        self._pulled = ~np.isnan(path.displacement[0])
         self._any_pulled = bool(self._pulled.any())
         profiled = any(isinstance(t.tension, TensionProfile) for t in self._robot.tendons)
         self._all_by_tension = not (profiled or self._any_pulled)
         self._equilibrium = Equilibrium(prepared)
         self._near: Settled | None = None
-        self._past: tuple[Settled, ...] = ()  # what was found before that, the latest first
+        self._past: tuple[_core.FrictionSettled, ...] = ()  # what was found before that, the latest first
         self._stride = inf  # how far a step may be expected to get
+        self._at_tensions = self._all_by_tension and not (self._plays.any or self._equilibrium.tube_step.rubs)
 
     def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
-        shapes, states, failed, steps = [], [], [], []
-        held = np.zeros(len(self._points), dtype=int)
-        index = [c.index for c in self._equilibrium.channels]
-        heats, creeps = ([[0.0] * len(index) for _ in self._points] for _ in range(2))
-        tube_heats = np.zeros((len(self._points), len(self._robot.tubes)))
         state = self._rest() if state is None else state
         self._return(state)
-        for k, point in enumerate(self._points):
-            start = perf_counter()
-            state, count = self._reach(point, state, heats[k], creeps[k], tube_heats[k])
-            good = count > 0
-            shapes.append(self._shape(state, good, point, perf_counter() - start))
-            states.append(state)
-            held[k] = self._near.held if good and self._near is not None else 0
-            steps.append(max(count, 1))
-            failed.append("" if good and shapes[-1].converged else self._why(shapes[-1]))
+        reached, shapes = [], []
+        for point, one in zip(self._points, self._all_reached(state), strict=True):
+            reached.append(one)
+            shapes.append(self._shape(one, point))
             if progress is not None:
-                progress(k + 1, len(self._points))
-        heat, creep = np.zeros((2, len(self._points), len(self._robot.tendons)))
-        heat[:, index], creep[:, index] = heats, creeps
+                progress(len(shapes), len(self._points))
+        good = [one.settled is not None and s.converged for one, s in zip(reached, shapes, strict=True)]
+        heat, creep = np.zeros((2, len(reached), len(self._robot.tendons)))
+        index = [c.index for c in self._equilibrium.channels]
+        heat[:, index], creep[:, index] = [one.heats for one in reached], [one.creeps for one in reached]
         return Driven(
-            tuple(shapes), tuple(states), tuple(failed), tuple(steps), heat, creep, tube_heats, held
+            tuple(shapes),
+            tuple([one.state for one in reached]),
+            tuple(["" if fine else self._why(shape) for fine, shape in zip(good, shapes, strict=True)]),
+            tuple([max(one.steps, 1) for one in reached]),
+            heat,
+            creep,
+            np.array([one.tube_heats for one in reached]),
+            np.array([0 if one.settled is None else one.settled.held for one in reached]),
         )
+
+    def _all_reached(self, state: DriveState) -> Iterator[_Reached]:
+        """Points one after another: as many at once as the kernel reaches, one by one where it needs help."""
+        k = 0
+        while k < len(self._points):
+            some = self._reach_some(state, k) or [self._reach(self._points[k], state)]
+            yield from some
+            state, k = some[-1].state, k + len(some)
+
+    def _reach_some(self, state: DriveState, first: int) -> list[_Reached]:
+        """Of points from the first on those that steps in the kernel lead to."""
+        if self._near is None or not self._at_tensions:
+            return []
+        ahead = self._equilibrium.ahead(
+            state.along,
+            [self._near.found, *self._past],
+            self._stride,
+            self._numbers[first : first + AT_ONCE],
+            (LIMITS.missed, LIMITS.turn, SHORTEST_STEP, CAREFUL, STRETCH),
+        )
+        reached, still = [], np.zeros(len(self._robot.tubes))
+        for given, (found, steps, heats, creeps, seconds) in zip(
+            self._points[first:], ahead.points, strict=False
+        ):
+            along = self._equilibrium.profiles(found)
+            state = DriveState(state.tendons, state.tubes, along, given, given)
+            reached.append(_Reached(state, Settled(found), steps, heats, creeps, still, seconds))
+        if reached:
+            self._near, self._past, self._stride = reached[-1].settled, tuple(ahead.found[1:]), ahead.stride
+        return reached
 
     def _rest(self) -> DriveState:
         robot = self._robot
@@ -143,7 +190,16 @@ class _Driver:
             return None
         return Profile.even(pretension, channel.end)
 
-    def _reach(
+    def _reach(self, point: Actuators, state: DriveState) -> _Reached:
+        """A point, step by step."""
+        start = perf_counter()
+        heats, creeps = ([0.0] * len(self._equilibrium.channels) for _ in range(2))
+        tube_heats = np.zeros(len(self._robot.tubes))
+        state, count = self._approach(point, state, heats, creeps, tube_heats)
+        settled = self._near if count > 0 else None
+        return _Reached(state, settled, count, heats, creeps, tube_heats, perf_counter() - start)
+
+    def _approach(
         self,
         point: Actuators,
         state: DriveState,
@@ -190,9 +246,9 @@ class _Driver:
 
     def _taken(self, settled: Settled, given: Actuators, state: DriveState) -> DriveState:
         passed = given.through(self._plays, state.passed)
-        self._past = () if self._near is None else (self._near, *self._past[:1])
+        self._past = () if self._near is None else (self._near.found, *self._past[:1])
         self._near = settled
-        along = self._equilibrium.profiles(settled)
+        along = self._equilibrium.profiles(settled.found)
         return DriveState(state.tendons, state.tubes, along, given, passed, settled.tubes)
 
     def _settle(
@@ -230,19 +286,19 @@ class _Driver:
             tubes=state.rubbing,
         )
 
-    def _shape(self, state: DriveState, good: bool, point: Actuators, elapsed: float) -> Shape:
-        prepared, near = self._prepared, self._near
-        if not good or near is None:
-            return plain_shape(prepared, point.through(self._plays, state.passed))
+    def _shape(self, reached: _Reached, point: Actuators) -> Shape:
+        prepared, near, passed = self._prepared, reached.settled, reached.state.passed
+        if near is None:
+            return plain_shape(prepared, point.through(self._plays, passed))
         return Shape(
             near.core,
             near.solution,
             base=self._robot,
-            actuation=self._actuation(state.passed),
+            actuation=self._actuation(passed),
             tolerance=prepared.tolerance,
             residual_tolerance=prepared.residual_tolerance,
             stations=prepared._given_stations,
-            solve_time=elapsed,
+            solve_time=reached.seconds,
             pulled=near.pulled,
             rest=lambda: prepared._rest,
             driven=True,

@@ -45,14 +45,13 @@ class Limits(NamedTuple):
 class Settled:
     """One equilibrium with friction.
 
-    found: the kernel's, which holds the robot with its profiles and the torques between tubes; passed: what
-    the actuators' plays passed on; pulled: of the tendons pulled by displacements, if there are any; tubes:
-    where they rub, None without; held: in how many directions of falling energy they hold the robot; spent:
-    heat, J, and creep, m, of the step that led here, by channel, where the kernel made it.
+    found: the kernel's, which holds the robot with its profiles and the torques between tubes; pulled: of the
+    tendons pulled by displacements, if there are any; tubes: where they rub, None without; held: in how many
+    directions of falling energy they hold the robot; spent: heat, J, and creep, m, of the step that led here,
+    by channel, where the kernel made it.
     """
 
     found: _core.FrictionSettled
-    passed: Actuators
     pulled: Pulled | None = None
     tubes: TubeFrictionState | None = None
     held: int = 0
@@ -67,6 +66,15 @@ class Settled:
     def solution(self) -> _core.Solution:
         """Its shape."""
         return self.found.solution
+
+
+class Ahead(NamedTuple):
+    """Points that were reached in a row: equilibrium, steps, heat, J, and creep, m, by channel, and seconds
+    of each; what was found last, the latest first; how far a step may be expected to get."""
+
+    points: list[tuple[_core.FrictionSettled, int, list[float], list[float], float]]
+    found: list[_core.FrictionSettled]
+    stride: float
 
 
 class Equilibrium:
@@ -94,7 +102,7 @@ class Equilibrium:
         near: Settled | None,
         solution: _core.Solution,
         *,
-        past: Sequence[Settled] = (),
+        past: Sequence[_core.FrictionSettled] = (),
         stay: bool,
         limits: Limits | None = None,
         tubes: TubeFrictionState | None = None,
@@ -114,10 +122,10 @@ class Equilibrium:
         if near is None:
             rounds.start_plain(solution)
         else:
-            rounds.start_near(near.found, [settled.found for settled in past])
+            rounds.start_near(near.found, list(past))
         if pulls is None and not self._tubes_rub:
             found = rounds.run(*arrays, *self._tolerances, solution, stay)
-            return None if found is None else Settled(found, passed), 0.0
+            return None if found is None else Settled(found), 0.0
         settled = _Rounds(self, rounds, passed, pulls, stay, tubes).run(solution)
         if settled is None or near is None or limits is None:
             return settled, 0.0
@@ -127,7 +135,12 @@ class Equilibrium:
         return (settled, missed) if self._goes_on(near, settled, limits.turn) else (None, 0.0)
 
     def _step(
-        self, old: Profiles, passed: Actuators, near: Settled, past: Sequence[Settled], limits: Limits | None
+        self,
+        old: Profiles,
+        passed: Actuators,
+        near: Settled,
+        past: Sequence[_core.FrictionSettled],
+        limits: Limits | None,
     ) -> tuple[Settled | None, float]:
         """Where tensions are given and no tubes rub: all of it in the kernel."""
         found, missed, *spent = _core.tendon_friction_step(
@@ -135,7 +148,7 @@ class Equilibrium:
             self.rows,
             old.rows(self._index),
             near.found,
-            [settled.found for settled in past],
+            list(past),
             passed.flat,
             passed.tension,
             passed.rotation,
@@ -143,7 +156,24 @@ class Equilibrium:
             *self._tolerances,
             limits,
         )
-        return None if found is None else Settled(found, passed, spent=(spent[0], spent[1])), missed
+        return None if found is None else Settled(found, spent=(spent[0], spent[1])), missed
+
+    def ahead(
+        self,
+        old: Profiles,
+        found: list[_core.FrictionSettled],
+        stride: float,
+        points: np.ndarray,
+        cuts: tuple[float, float, float, float, float],
+    ) -> Ahead:
+        """As far along points (k, numbers) as steps lead, where tensions are given and no tubes rub. found:
+        where it starts and what was before that, the latest first. cuts: as the kernel takes them."""
+        rows = old.rows(self._index)
+        return Ahead(
+            *_core.tendon_friction_way(
+                self._prepared._core, self.rows, rows, found, stride, points, *self._tolerances, cuts
+            )
+        )
 
     def _goes_on(self, a: Settled, b: Settled, most: float) -> bool:
         """Whether the way from a to b is short enough for one step, and b as stable as a."""
@@ -154,9 +184,9 @@ class Equilibrium:
         """Heat and creep of the step from one to the next, by channel."""
         return settled.spent or _core.friction_heat(self.rows, near.found, settled.found)
 
-    def profiles(self, settled: Settled) -> FoundProfiles:
+    def profiles(self, found: _core.FrictionSettled) -> FoundProfiles:
         """What an equilibrium leaves behind."""
-        return FoundProfiles(settled.found, self._index, len(self._prepared.robot.tendons))
+        return FoundProfiles(found, self._index, len(self._prepared.robot.tendons))
 
 
 class _Rounds:
@@ -173,7 +203,7 @@ class _Rounds:
     ) -> None:
         self._owner, self._rounds, self._pulls, self._stay = owner, rounds, pulls, stay
         self._tubes_before, self._tubes, self._held = tubes, None, 0
-        self._passed, self._tension = passed, passed.tension.copy()
+        self._tension = passed.tension.copy()
         self._rotation, self._translation = passed.rotation, passed.translation
 
     def run(self, solution: _core.Solution) -> Settled | None:
@@ -189,7 +219,7 @@ class _Rounds:
             pulled, step = self._pull(core, solution, count)
             if rounds.missed <= self._owner._prepared.residual_tolerance and step is None:
                 found = rounds.settled(core, solution)
-                return Settled(found, self._passed, pulled, self._tubes, self._held)
+                return Settled(found, pulled, self._tubes, self._held)
             tension = self._tension if step is None else step
             self._tension = rounds.mix(self._tension / scale, tension / scale) * scale
         return None
