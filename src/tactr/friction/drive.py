@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from functools import partial
 from math import ceil, inf, sqrt
 from time import perf_counter
 from typing import Any
@@ -18,6 +18,7 @@ from tactr.friction.equilibrium import Equilibrium, Limits, Settled
 from tactr.friction.plain import plain_shape
 from tactr.friction.profile import Profile
 from tactr.friction.profiles import GivenProfiles
+from tactr.friction.record import Reached, driven_of
 from tactr.friction.state import DriveState
 from tactr.robot import Robot, TensionProfile
 from tactr.robot.friction import rubs
@@ -75,20 +76,6 @@ def _check(robot: Robot) -> None:
             )
 
 
-@dataclass(frozen=True, eq=False)
-class _Reached:
-    """A point; or the state before it, and no equilibrium. steps: on the way to it, and what they cost, by
-    channel and by tube; seconds: that it took."""
-
-    state: DriveState
-    settled: Settled | None
-    steps: int
-    heats: list[float]
-    creeps: list[float]
-    tube_heats: np.ndarray
-    seconds: float
-
-
 class _Driver:
     def __init__(self, prepared: Prepared, path: PathPoints) -> None:
         self._prepared, self._points, self._numbers = prepared, Actuators.along(path), Actuators.numbers(path)
@@ -107,36 +94,17 @@ class _Driver:
     def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
         state = self._rest() if state is None else state
         self._return(state)
-        reached, shapes = [], []
-        for point, one in zip(self._points, self._all_reached(state), strict=True):
-            reached.append(one)
-            shapes.append(self._shape(one, point))
+        points: list[Reached] = []
+        while len(points) < len(self._points):
+            k = len(points)
+            points += self._reach_some(state, k) or [self._reach(self._points[k], state)]
+            state = points[-1].state()
             if progress is not None:
-                progress(len(shapes), len(self._points))
-        good = [one.settled is not None and s.converged for one, s in zip(reached, shapes, strict=True)]
-        heat, creep = np.zeros((2, len(reached), len(self._robot.tendons)))
-        index = [c.index for c in self._equilibrium.channels]
-        heat[:, index], creep[:, index] = [one.heats for one in reached], [one.creeps for one in reached]
-        return Driven(
-            tuple(shapes),
-            tuple([one.state for one in reached]),
-            tuple(["" if fine else self._why(shape) for fine, shape in zip(good, shapes, strict=True)]),
-            tuple([max(one.steps, 1) for one in reached]),
-            heat,
-            creep,
-            np.array([one.tube_heats for one in reached]),
-            np.array([0 if one.settled is None else one.settled.held for one in reached]),
-        )
+                for done in range(k, len(points)):
+                    progress(done + 1, len(self._points))
+        return driven_of(points, len(self._robot.tendons), [c.index for c in self._equilibrium.channels])
 
-    def _all_reached(self, state: DriveState) -> Iterator[_Reached]:
-        """Points one after another: as many at once as the kernel reaches, one by one where it needs help."""
-        k = 0
-        while k < len(self._points):
-            some = self._reach_some(state, k) or [self._reach(self._points[k], state)]
-            yield from some
-            state, k = some[-1].state, k + len(some)
-
-    def _reach_some(self, state: DriveState, first: int) -> list[_Reached]:
+    def _reach_some(self, state: DriveState, first: int) -> list[Reached]:
         """Of points from the first on those that steps in the kernel lead to."""
         if self._near is None or not self._at_tensions:
             return []
@@ -151,11 +119,12 @@ class _Driver:
         for given, (found, steps, heats, creeps, seconds) in zip(
             self._points[first:], ahead.points, strict=False
         ):
-            along = self._equilibrium.profiles(found)
-            state = DriveState(state.tendons, state.tubes, along, given, given)
-            reached.append(_Reached(state, Settled(found), steps, heats, creeps, still, seconds))
+            shape = partial(self._shape, found, given, seconds)
+            remembered = partial(self._state, found, given)
+            reached.append(Reached(shape, remembered, "", steps, heats, creeps, still, 0))
         if reached:
-            self._near, self._past, self._stride = reached[-1].settled, tuple(ahead.found[1:]), ahead.stride
+            self._near = Settled(ahead.found[0])
+            self._past, self._stride = tuple(ahead.found[1:]), ahead.stride
         return reached
 
     def _rest(self) -> DriveState:
@@ -190,14 +159,20 @@ class _Driver:
             return None
         return Profile.even(pretension, channel.end)
 
-    def _reach(self, point: Actuators, state: DriveState) -> _Reached:
+    def _reach(self, point: Actuators, state: DriveState) -> Reached:
         """A point, step by step."""
         start = perf_counter()
         heats, creeps = ([0.0] * len(self._equilibrium.channels) for _ in range(2))
         tube_heats = np.zeros(len(self._robot.tubes))
         state, count = self._approach(point, state, heats, creeps, tube_heats)
-        settled = self._near if count > 0 else None
-        return _Reached(state, settled, count, heats, creeps, tube_heats, perf_counter() - start)
+        settled, spent = self._near, (heats, creeps, tube_heats)
+        if count == 0 or settled is None:
+            plain = plain_shape(self._prepared, point.through(self._plays, state.passed))
+            return Reached(lambda: plain, lambda: state, self._why(plain), max(count, 1), *spent, 0)
+        seconds = perf_counter() - start
+        shape = self._shape(settled.found, state.passed, seconds, settled.pulled)
+        failed = "" if shape.converged else self._why(shape)
+        return Reached(lambda: shape, lambda: state, failed, count, *spent, settled.held)
 
     def _approach(
         self,
@@ -286,20 +261,25 @@ class _Driver:
             tubes=state.rubbing,
         )
 
-    def _shape(self, reached: _Reached, point: Actuators) -> Shape:
-        prepared, near, passed = self._prepared, reached.settled, reached.state.passed
-        if near is None:
-            return plain_shape(prepared, point.through(self._plays, passed))
+    def _state(self, found: _core.FrictionSettled, given: Actuators) -> DriveState:
+        """Without plays and tubes that rub."""
+        names = tuple([t.name for t in self._robot.tendons]), tuple([t.name for t in self._robot.tubes])
+        return DriveState(*names, self._equilibrium.profiles(found), given, given)
+
+    def _shape(
+        self, found: _core.FrictionSettled, passed: Actuators, seconds: float, pulled: Pulled | None = None
+    ) -> Shape:
+        prepared = self._prepared
         return Shape(
-            near.core,
-            near.solution,
+            found.robot,
+            found.solution,
             base=self._robot,
             actuation=self._actuation(passed),
             tolerance=prepared.tolerance,
             residual_tolerance=prepared.residual_tolerance,
             stations=prepared._given_stations,
-            solve_time=reached.seconds,
-            pulled=near.pulled,
+            solve_time=seconds,
+            pulled=pulled,
             rest=lambda: prepared._rest,
             driven=True,
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -22,16 +22,17 @@ if TYPE_CHECKING:
 class Driven:
     """Shapes along a path of actuation, k points, with what the robot remembers after each.
 
-    shapes, states: k; failed: k texts, empty where the shape converged; steps: k, into how many the way to
-    each point was cut; heat (k, tendons): J that friction took from one point to the next, from its force
-    and the slip along each tendon; creep (k, tendons): m, how far at most a tendon slipped where its tension
-    was left as it was (see docs/friction.md); tube_heat (k, tubes): J that friction of every tube in the next
-    outer body took, from its torque and the slip; held (k,): in how many directions of falling energy tubes
-    that do not slide on each other hold the robot. Iterates over its shapes.
+    shapes, states: k, made when they are looked at; failed: k texts, empty where the shape converged;
+    steps: k, into how many the way to each point was cut; heat (k, tendons): J that friction took from
+    one point to the next, from its force and the slip along each tendon; creep (k, tendons): m, how far
+    at most a tendon slipped where its tension was left as it was (see docs/friction.md); tube_heat (k,
+    tubes): J that friction of every tube in the next outer body took, from its torque and the slip; held
+    (k,): in how many directions of falling energy tubes that do not slide on each other hold the robot.
+    Iterates over its shapes.
     """
 
-    shapes: tuple[Shape, ...]
-    states: tuple[DriveState, ...]
+    shapes: Sequence[Shape]
+    states: Sequence[DriveState]
     failed: tuple[str, ...]
     steps: tuple[int, ...]
     heat: np.ndarray
