@@ -217,9 +217,7 @@ def tendon_friction_way(
     tolerance: float,
     residual_tolerance: float,
     cuts: tuple[float, float, float, float, float],
-) -> tuple[
-    list[tuple[FrictionSettled, int, list[float], list[float], float]], list[FrictionSettled], float
-]:
+) -> tuple[list[tuple[FrictionSettled, int, list[float], list[float], float]], list[FrictionSettled], float]:
     """Along points (k, numbers), as far as they are reached: equilibrium, steps, heat, J, and creep, m, by
     channel, seconds; what was found last, and the stride to go on with. found: where the way starts, and
     what was found before, the latest first. cuts: limits of history missed and of turn, rad, of a step, the
