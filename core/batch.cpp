@@ -15,7 +15,7 @@ namespace tactr {
 
 namespace {
 
-constexpr std::size_t LEAST_CHUNK = 64, MOST_CHUNK = 512, CHUNKS_A_THREAD = 4;  // large: packs of those alike; many: no thread waits
+constexpr std::size_t LEAST_CHUNK = 32, MOST_CHUNK = 512;  // the larger, the more alike are those in a pack
 constexpr int STABILITY_SAMPLES = 8;  // per step
 
 /// |u - u*| and |v - v*| of one tube at one station, where they are larger than found before.
@@ -174,9 +174,9 @@ bool strain_maxima(const RobotTables<double>& robot, const Solution& solution, c
 
 void solve_batch(const BatchRequest& request, const BatchResult& result, const std::function<bool()>& poll) {
     const BatchSolver solver(request, result);
-    const std::size_t share = request.count / (CHUNKS_A_THREAD * static_cast<std::size_t>(std::max(request.threads, 1)));
-    const std::size_t chunk = request.lanes == Lanes::device ? DEVICE_CHUNK : std::clamp(share, LEAST_CHUNK, MOST_CHUNK);
-    in_chunks(request.count, chunk, request.threads, [&](std::size_t begin, std::size_t end) { solver.solve(begin, end); }, poll);
+    const bool device = request.lanes == Lanes::device;
+    in_chunks(request.count, device ? DEVICE_CHUNK : LEAST_CHUNK, device ? DEVICE_CHUNK : MOST_CHUNK, request.threads,
+              [&](std::size_t begin, std::size_t end) { solver.solve(begin, end); }, poll);
 }
 
 }  // namespace tactr
