@@ -62,7 +62,7 @@ class LaneChunk {
     }
 
   private:
-    static constexpr int MOST_ROUNDS = 6, MOST_STEPS = LANE_STAGES / dp8::STAGES;
+    static constexpr int MOST_ROUNDS = 6;
     // As in newton.hpp; but there, the first march is on the steps that it finds, here on the coarsest.
     static constexpr double MESH_SLACK = 2.0, SINGLE_STEP_SHARE = 0.15, LEAST_STRETCH = 0.2;
 
@@ -163,7 +163,7 @@ class LaneChunk {
             if (excess > 1.0) job.steps[k] = steps_for(job.steps[k], 2.0 * excess, 8.0);
             total += job.steps[k];
         }
-        return total <= MOST_STEPS;
+        return total <= LANE_STEPS;
     }
 
     static std::int16_t steps_for(int now, double excess, double most) {
@@ -217,7 +217,7 @@ class LaneChunk {
             }
             total += job.steps[k];
         }
-        return finer && total <= MOST_STEPS;
+        return finer && total <= LANE_STEPS;
     }
 
     Solution solution_of(const Job& job) const {

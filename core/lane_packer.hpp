@@ -79,7 +79,9 @@ class LanePacker {
         LaneSection& to = plan.sections[k];
         const double ends[2] = {from.proximal, from.distal};
         to.first = append(ends, 2);
-        to.steps = std::max(1, static_cast<int>(std::ceil(from.winding / MOST_WINDING)));
+        const double steps = std::ceil(from.winding / MOST_WINDING);
+        if (!(steps <= LANE_STEPS)) return false;
+        to.steps = std::max(1, static_cast<int>(steps));
         to.guided = from.guided;
         to.even = from.even;
         to.active_count = from.active_count;

@@ -5,7 +5,7 @@
 
 namespace tactr {
 
-constexpr int LANE_TUBES = 4, LANE_SECTIONS = 24, LANE_HOSTED = 12, LANE_TENDONS = 12, LANE_LOADS = 2, LANE_STAGES = 12 * 64;
+constexpr int LANE_TUBES = 4, LANE_SECTIONS = 24, LANE_HOSTED = 12, LANE_TENDONS = 12, LANE_LOADS = 2, LANE_STEPS = 64;
 constexpr int LANE_STRAINS = 4 + 2 * LANE_TUBES;
 constexpr int LANE_UNKNOWNS = LANE_TUBES - 1;
 

@@ -131,3 +131,14 @@ def test_a_pack_of_designs_with_other_insertions() -> None:
         shape = batch.shape(i)
         assert shape.status.value == batch.status_names[i]
         np.testing.assert_allclose(batch.tip_position[i], shape.tip_position, atol=TOLERANCE)
+
+
+def test_what_winds_too_fast_for_packs_goes_one_by_one() -> None:
+    """A helix of thousands of turns: no pack holds its steps, and it must not harm the batch."""
+    tube = tactr.Tube(
+        "tube", length=0.2, section=tactr.Annulus(2e-3, 1.6e-3), material=tactr.Material(E=60e9, nu=0.3)
+    )
+    robot = tactr.Robot([tube], [tactr.Tendon("helix", "tube", tactr.Helix(3e-3, 6.6e5), tension=1.0)])
+    packed = kernel(robot, np.array([[1.0]]), np.zeros((1, 1)), "baseline")
+    assert not packed["side_by_side"].any()
+    same(packed, kernel(robot, np.array([[1.0]]), np.zeros((1, 1)), "none"))
