@@ -45,10 +45,9 @@ Curve rate_curve(const Wrap& wrap) {
 }  // namespace
 
 void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionSettled& before, const FrictionSettled& after,
-                   std::vector<double>& heat, std::vector<double>& creep) {
+                   std::vector<double>& heat) {
     const ChebyshevRules& rules = ChebyshevRules::get();
     heat.assign(channels.size(), 0.0);
-    creep.assign(channels.size(), 0.0);
     for (size_t c = 0; c < channels.size(); ++c) {
         std::vector<double> all{0.0, channels[c].end};
         for (const FrictionSettled* settled : {&before, &after}) {
@@ -74,8 +73,6 @@ void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionS
             for (int p = 0; p < CURVE_POINTS; ++p)
                 along += rules.weight[p] * rubbing(falls[0].along[k][p], falls[1].along[k][p]) * (beyond - inside[p] * half);
             heat[c] += along * half + rubbing(falls[0].at_edges[k], falls[1].at_edges[k]) * beyond;
-            const auto& profile = after.profiles[c];
-            if (profile && profile->slides[profile->log.piece(edges[k] + 1e-10)] == 0) creep[c] = larger(creep[c], std::fabs(beyond));
         }
     }
 }
