@@ -4,6 +4,7 @@ import copy
 import json
 import math
 import pickle
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -113,6 +114,32 @@ def apart(one: DriveState, other: DriveState) -> float:
         ratio = np.log(one.tension(tendon, sigma) / other.tension(tendon, sigma))
         found = max(found, float(np.sort(np.abs(ratio))[-4]))
     return found
+
+
+@pytest.mark.parametrize("play", [0.0, 0.1])
+def test_a_point_that_is_repeated_changes_no_steps(play):
+    """In the kernel, and with backlash of a tube's motor in Python."""
+    robot = bending()
+    robot = robot.replace(tubes=tuple(replace(tube, rotation_play=play) for tube in robot.tubes))
+    rows = legs([8.0, 3.0, 7.0], 2)
+    once, twice = (tactr.drive(robot, pulled(line)) for line in (rows, np.repeat(rows, 2)))
+    assert twice.steps[::2] == once.steps
+    assert set(twice.steps[1::2]) == {1}
+    assert twice.tips[1::2] == pytest.approx(once.tips, abs=1e-7)
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.lists(st.floats(0.0, 1.0), min_size=3, max_size=4), st.sampled_from([None, 5]))
+def test_it_does_not_matter_how_many_points_the_kernel_takes_at_once(corners, disks):
+    robot, rows = rubbing_tubes(0.2, disks), legs(corners, 5)[:, None] * [3.0, 2.0, 1.0]
+    whole = tactr.drive(robot, {"tension": rows})
+    for at_once in (7, 1):
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr(sys.modules["tactr.friction.drive"], "AT_ONCE", at_once)
+            parts = tactr.drive(robot, {"tension": rows})
+        assert parts.failed == whole.failed and parts.steps == whole.steps
+        for name in ("tips", "heat", "creep", "tensions"):
+            assert getattr(parts, name).tolist() == getattr(whole, name).tolist()
 
 
 def test_short_ways_end():

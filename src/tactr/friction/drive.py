@@ -216,7 +216,8 @@ class _Driver:
             if snaps:
                 self._past = ()
             done, count, step = to, count + 1, step * min(4.0, _of_step(missed))
-        self._stride = step * way
+        if way > 0.0:
+            self._stride = step * way
         return state, count
 
     def _taken(self, settled: Settled, given: Actuators, state: DriveState) -> DriveState:
