@@ -31,7 +31,7 @@ class PressingReader : public EndsReader {
     void operator()(M& march, int k, const double* before, double s, double h) {
         EndsReader::operator()(march, k, before, s, h);
         const Section<double>& section = layout_.sections[k];
-        if (std::fabs(s + h - section.proximal) > 1e-9 * (section.distal - section.proximal)) return;
+        if (!ends_section(section, s + h)) return;
         read(march, section, k, section.proximal, proximal_contact[k]);
     }
 
