@@ -36,10 +36,13 @@ std::vector<double> lengths_beyond(const Wrap& wrap, const std::vector<double>& 
         for (int p = 0; p < CURVE_POINTS; ++p) beyond += rules.weight[p] * wrap.rate[k][p] * half;
         size_t first = last;
         while (first > 0 && (k == 0 || places[first - 1] >= start - EDGE_GAP)) --first;
-        if (first == last) continue;
-        const PointValues upto = ChebyshevRules::times(rules.integral, wrap.rate[k]);
-        chebyshev_at_all(upto, start, half, &places[first], last - first, room.data(), &out[first]);
-        for (size_t i = first; i < last; ++i) out[i] = beyond - half * out[i];
+        size_t inside = first;
+        if (inside < last && places[inside] <= start + EDGE_GAP) out[inside++] = beyond;
+        if (inside < last) {
+            const PointValues upto = ChebyshevRules::times(rules.integral, wrap.rate[k]);
+            chebyshev_at_all(upto, start, half, &places[inside], last - inside, room.data(), &out[inside]);
+        }
+        for (; inside < last; ++inside) out[inside] = beyond - half * out[inside];
         last = first;
     }
     return out;

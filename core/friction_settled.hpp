@@ -31,8 +31,10 @@ struct FrictionSettled {
 };
 
 /// Of one step, by channel, J. The tendon's end does not slip; a place slips by what the path beyond it has become shorter.
-/// Friction is the fall of tension along the tendon: its mean over the step where it points the same way before and after,
-/// otherwise that after, for it turns round before there is slip.
+/// Friction is the fall of tension along the tendon, of which its mean over the step goes with that slip, to second order also
+/// where fronts come by: those come by their places at all times of the step. But where the tendon has begun to slide, the path
+/// changes after the front has come by, and before that by all places nearer to the base: where friction there has turned
+/// round, it is that after.
 void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionSettled& before, const FrictionSettled& after,
                    std::vector<double>& heat);
 
