@@ -213,6 +213,10 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
             near = std::move(found);
             step_.assign(newton.shooting.unknowns, 0.0);
             if (!measure(robot, near) || too_long()) return false;
+        } else if (rigid && missed <= aim && mesh_error_ <= settings.tolerance) {
+            near.discretisation_error = mesh_error_;
+            near.length_error = 0.0;
+            near.mesh.excess.clear();
         } else if (rigid && missed <= aim) {  // what its steps err is yet to be known
             const auto steps = near.mesh.steps;
             const auto grade = near.mesh.grade;
@@ -252,7 +256,9 @@ bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution
         }
         if (newton.shooting.distance(before, near.free_end) > Stride::CLOSE) return false;
     }
-    if (!WrapReader(channels_, joints_).read(newton, near, after_)) return false;
+    WrapReader reader(channels_, joints_);
+    if (!reader.read(newton, near, after_)) return false;
+    mesh_error_ = reader.error();
     newton.note_edges(near);
     double step[MAX_UNKNOWNS];
     if (!newton.chord(near, step)) return false;

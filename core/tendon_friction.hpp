@@ -1,5 +1,6 @@
 // Shape, tensions along the tendons and wrap angles that go together, from given profiles before.
 #pragma once
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -70,6 +71,7 @@ class FrictionRounds {
     std::vector<double> own_, given_;      // both as numbers
     std::optional<FreeEnd<double>> ahead_;  // where the free end goes on to
     std::vector<double> step_;              // that the last march says is left for it
+    double mesh_error_ = INFINITY;          // of the last march's mesh, m, where it is known without derivatives
     std::vector<double> last_missed_, last_given_;
     std::vector<RoundsPair> pairs_;
 
