@@ -24,8 +24,8 @@ struct Falls {
                 before = even;
                 continue;
             }
-            PointValues tension = points_between(start, end);
-            for (double& x : tension) x = std::exp(profile->log.on(piece, x));
+            PointValues tension = profile->log.on(piece, points_between(start, end));
+            for (double& x : tension) x = std::exp(x);
             along[k] = ChebyshevRules::times(ChebyshevRules::get().slope, tension);
             for (double& x : along[k]) x *= -2.0 / (end - start);
             if (k > 0) at_edges[k] = before - std::exp(profile->log.on(piece, start));
@@ -63,10 +63,11 @@ void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionS
             const double half = 0.5 * (edges[k + 1] - edges[k]), middle = edges[k] + half;
             const PointValues places = points_between(edges[k], edges[k + 1]);
             const int pieces[2] = {rates[0].piece(middle), rates[1].piece(middle)};
-            PointValues shorter;
+            PointValues shorter = rates[0].on(pieces[0], places);
+            const PointValues now = rates[1].on(pieces[1], places);
             double whole = 0.0, along = 0.0;
             for (int p = 0; p < CURVE_POINTS; ++p) {
-                shorter[p] = rates[0].on(pieces[0], places[p]) - rates[1].on(pieces[1], places[p]);
+                shorter[p] -= now[p];
                 whole += rules.weight[p] * shorter[p] * half;
             }
             beyond += whole;

@@ -26,9 +26,8 @@ void add_pieces(const FrictionProfile& profile, double y0, std::vector<TensionPi
             out.push_back({edges[k], 1, {std::exp(profile.log.coefficients[k][0] - y0)}});
             continue;
         }
-        PointValues values;
-        const PointValues places = points_between(edges[k], edges[k + 1]);
-        for (int p = 0; p < CURVE_POINTS; ++p) values[p] = std::exp(profile.log.on(static_cast<int>(k), places[p]) - y0);
+        PointValues values = profile.log.on(static_cast<int>(k), points_between(edges[k], edges[k + 1]));
+        for (double& x : values) x = std::exp(x - y0);
         PointValues c = ChebyshevRules::times(rules.fit, values);
         double largest = 0.0;
         for (double x : c) largest = larger(largest, std::fabs(x));
@@ -52,10 +51,8 @@ void add_rises(const std::vector<double>& joints, const double* numbers, Curve& 
         correction.coefficients.push_back(ChebyshevRules::times(rules.fit, values));
     }
     for (size_t k = 0; k < rise.coefficients.size(); ++k) {
-        PointValues values = points_between(rise.edges[k], rise.edges[k + 1]);
         const int piece = correction.piece(0.5 * (rise.edges[k] + rise.edges[k + 1]));
-        for (double& x : values) x = correction.on(piece, x);
-        values = ChebyshevRules::times(rules.fit, values);
+        const PointValues values = ChebyshevRules::times(rules.fit, correction.on(piece, points_between(rise.edges[k], rise.edges[k + 1])));
         for (int i = 0; i < CURVE_POINTS; ++i) rise.coefficients[k][i] += values[i];
     }
 }
@@ -301,7 +298,7 @@ void FrictionRounds::numbers_of(const std::vector<Wrap>& wraps, std::vector<doub
     for (size_t c = 0; c < wraps.size(); ++c) {
         const auto& joints = joints_[c];
         for (size_t k = 0; k + 1 < joints.size() && !channels_[c].over_disks; ++k)
-            for (double sigma : points_between(joints[k], joints[k + 1])) out.push_back(wraps[c].rise.at(sigma));
+            for (double rise : wraps[c].rise.at(points_between(joints[k], joints[k + 1]))) out.push_back(rise);
         for (double joint : joints) out.push_back(wraps[c].jump_at(joint));
     }
 }
