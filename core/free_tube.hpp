@@ -24,11 +24,12 @@ class FreeTube {
         return true;
     }
 
-    explicit FreeTube(const NewtonSolver& newton)
+    FreeTube(const NewtonSolver& newton, double section_tolerance)
         : robot_(newton.robot), layout_(newton.layout), at_(newton.actuation), solver_(newton.robot, newton.layout, newton.actuation) {
         solver_.moment_scale = newton.shooting.moment_scale;
         solver_.force_scale = newton.shooting.force_scale;
         solver_.precision = Precision::checked;
+        solver_.tolerance = section_tolerance;
         packing_.set(layout_.sections.front().active, 1, false, {false, false, false});
         turn_about_z(at_.rotation[0], turn_);
     }

@@ -76,7 +76,9 @@ class WrapReader {
   public:
     using Joints = std::vector<std::vector<double>>;  // by channel
 
-    WrapReader(const std::vector<FrictionChannel>& channels, const Joints& joints) : channels_(channels), joints_(joints) {}
+    /// section_tolerance: to which cross-sections are solved.
+    WrapReader(const std::vector<FrictionChannel>& channels, const Joints& joints, double section_tolerance)
+        : channels_(channels), joints_(joints), tolerance_(section_tolerance) {}
 
     /// The shape as the solver has it: its free end and mesh in the solution, which gets the residual there. False: it
     /// cannot be marched along.
@@ -93,6 +95,7 @@ class WrapReader {
 
     const std::vector<FrictionChannel>& channels_;
     const Joints& joints_;
+    const double tolerance_;
     const ChebyshevRules& rules_ = ChebyshevRules::get();
     std::vector<double> edges_, places_;  // s of the panels' ends, and of all their points
     std::vector<Directions> directions_;  // of the channel, by panel
@@ -146,7 +149,7 @@ class WrapReader {
     /// In world axes, but for where they begin.
     bool find_chords(NewtonSolver& newton, Solution& solution, std::vector<TendonChord>& chords) {
         if (FreeTube::fits(newton)) {
-            FreeTube tube(newton);
+            FreeTube tube(newton, tolerance_);
             if (!tube.read(chords)) return false;
             tube.note(solution);
             error_ = tube.error_on(solution.mesh);
@@ -156,7 +159,7 @@ class WrapReader {
         }
         TendonChords seen(newton.robot, newton.layout);
         BaseState<double> base;
-        if (!newton.watch(solution, seen, base)) return false;
+        if (!newton.watch(solution, seen, base, tolerance_)) return false;
         double turn[4];
         newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
         chords = std::move(seen.found);
@@ -234,14 +237,14 @@ class WrapReader {
     /// At the points of all panels, in world axes.
     bool find_tendons(NewtonSolver& newton, Solution& solution, std::vector<TendonDirection>& tendons) {
         if (FreeTube::fits(newton)) {
-            FreeTube tube(newton);
+            FreeTube tube(newton, tolerance_);
             if (!tube.read(edges_, tendons)) return false;
             tube.note(solution);
             return true;
         }
         TendonDirections seen(newton.robot, newton.layout, places_);
         BaseState<double> base;
-        if (!newton.watch(solution, seen, base) || !seen.complete()) return false;
+        if (!newton.watch(solution, seen, base, tolerance_) || !seen.complete()) return false;
         double turn[4];
         newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
         seen.turn(turn);

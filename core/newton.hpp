@@ -126,12 +126,13 @@ class NewtonSolver {
         return solve_dense(shooting.unknowns, A, step) != 0.0;
     }
 
-    /// A check, its steps seen by an observer. False: a section had no equilibrium.
+    /// A check, its steps seen by an observer, its sections solved to a tolerance. False: a section had no equilibrium.
     template <class Observer>
-    bool watch(Solution& solution, Observer& observer, BaseState<double>& base) {
+    bool watch(Solution& solution, Observer& observer, BaseState<double>& base, double section_tolerance = SECTION_TOLERANCE) {
         March<double, double> march(robot, layout, actuation, shooting.full_options());
         shooting.scale(march);
         march.solver.precision = Precision::checked;
+        march.solver.tolerance = section_tolerance;
         tell_shift(solution);
         if (!march.run(solution.free_end, solution.mesh, observer)) return false;
         base = march.base;

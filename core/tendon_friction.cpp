@@ -15,6 +15,8 @@ namespace {
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
 constexpr double LOOK_BELOW = 0.2;    // of the limit, missed: from here on it is seen whether a step is too long
 constexpr double LITTLE = 10.0;        // of the precision, missed: the free end is where the last march said, but for what it forgives
+constexpr double SECTIONS_SHARE = 1e-3, ROUGHEST = 1e-6;  // tolerance of sections: of what was missed, and at most
+constexpr double LAST_ROUNDS = 100.0;                    // of the precision, missed: what follows may be the last
 constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
 
 /// Tension over that at the base, as polynomials.
@@ -75,6 +77,7 @@ bool FrictionRounds::start(const Solution& solution) {
 
 void FrictionRounds::start(const FrictionSettled& near, const std::vector<const FrictionSettled*>& past) {
     wraps_ = near.wraps;
+    first_missed_ = near.first_missed;
     std::vector<double> now;
     numbers_of(wraps_, now);
     for (const RoundsPair& pair : near.pairs)
@@ -134,7 +137,7 @@ bool FrictionRounds::read(const RobotTables<double>& shaped, const Solution& sol
     const Actuation<double> at{here.tension.data(), here.rotation.data(), here.translation.data(), 1.0, 1.0};
     NewtonSolver newton(view, at, Settings{});
     if (!newton.take_over(solution, here)) return false;
-    return WrapReader(channels_, joints_).read(newton, here, wraps);
+    return WrapReader(channels_, joints_, SECTION_TOLERANCE).read(newton, here, wraps);
 }
 
 bool FrictionRounds::compare() {
@@ -209,6 +212,7 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
             if (found.status != Status::converged) return false;
             near = std::move(found);
             step_.assign(newton.shooting.unknowns, 0.0);
+            section_tolerance_ = SECTION_TOLERANCE;
             if (!measure(robot, near) || too_long()) return false;
         } else if (rigid && missed <= aim && mesh_error_ <= settings.tolerance) {
             near.discretisation_error = mesh_error_;
@@ -222,7 +226,7 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
             if (!known && (!measure(robot, near) || too_long())) return false;
         }
         from = nullptr;
-        if (missed <= aim && near.discretisation_error <= settings.tolerance && near.base_residual <= settings.residual_tolerance) {
+        if (missed <= aim && section_tolerance_ <= SECTION_TOLERANCE && near.discretisation_error <= settings.tolerance && near.base_residual <= settings.residual_tolerance) {
             if (!NewtonSolver::succeed(near)) return false;
             settle(std::move(robot), std::move(near), out);
             return true;
@@ -236,6 +240,12 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
 bool FrictionRounds::lead(NewtonSolver& newton, const Solution& from, const FreeEnd<double>* ahead, Solution& near) {
     if (newton.shooting.unknowns > 0) return newton.lead(from, near, ahead);
     return newton.take_over(from, near) || newton.carry_over(from, near);
+}
+
+/// Sections are solved no better than what is missed before asks for; to their tolerance where that is little.
+double FrictionRounds::section_tolerance(double still_missed) const {
+    if (still_missed < LAST_ROUNDS * precision_) return SECTION_TOLERANCE;
+    return std::clamp(SECTIONS_SHARE * still_missed, SECTION_TOLERANCE, ROUGHEST);
 }
 
 bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution& near) {
@@ -253,7 +263,8 @@ bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution
         }
         if (newton.shooting.distance(before, near.free_end) > Stride::CLOSE) return false;
     }
-    WrapReader reader(channels_, joints_);
+    section_tolerance_ = section_tolerance(from ? first_missed_ : missed);
+    WrapReader reader(channels_, joints_, section_tolerance_);
     if (!reader.read(newton, near, after_)) return false;
     mesh_error_ = reader.error();
     newton.note_edges(near);
@@ -262,7 +273,9 @@ bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution
     step_.assign(step, step + unknowns);
     near.status = Status::converged;
     ++rounds;
-    return compare();
+    if (!compare()) return false;
+    if (from) first_missed_ = missed;
+    return true;
 }
 
 void FrictionRounds::settle(RobotTables<double>&& shaped, Solution&& solution, FrictionSettled& out) {
@@ -271,6 +284,7 @@ void FrictionRounds::settle(RobotTables<double>&& shaped, Solution&& solution, F
     out.profiles = std::move(profiles);
     out.wraps = std::move(after_);
     out.missed = missed;
+    out.first_missed = first_missed_;
     out.rounds = rounds;
     out.pairs = std::move(pairs_);
     out.at = at_;
