@@ -107,14 +107,9 @@ class NewtonSolver {
         return true;
     }
 
-    /// By the derivatives that the solution has to where they meet the base. False: a section had no equilibrium.
-    bool step_by_derivatives(Solution& solution) {
-        if (!evaluate(solution, Kind::check)) return false;
-        double missed[MAX_UNKNOWNS];
-        std::copy(residual, residual + shooting.unknowns, missed);
-        step_with_neighbour(missed, solution);
-        return true;
-    }
+    /// By the derivatives that the solution has to where they meet the base. section_tolerance: of the march that it takes. False:
+    /// a section had no equilibrium.
+    bool step_by_derivatives(Solution& solution, double section_tolerance);
 
     /// The step that the solution's derivatives ask for at the last residual. False: there is none.
     bool chord(const Solution& solution, double (&step)[MAX_UNKNOWNS]) const {

@@ -250,6 +250,7 @@ double FrictionRounds::section_tolerance(double still_missed) const {
 
 bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution& near) {
     const int unknowns = newton.shooting.unknowns;
+    section_tolerance_ = section_tolerance(from ? first_missed_ : missed);
     if (from) {
         if (!lead(newton, *from, ahead_ ? &*ahead_ : nullptr, near)) return false;
     } else {
@@ -258,12 +259,11 @@ bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution
         if (near.mesh.steps.size() != newton.layout.sections.size()) {  // a front has come or gone
             const Solution last = near;
             if (!lead(newton, last, &last.free_end, near)) return false;
-        } else if (unknowns > 0 && missed > LITTLE * precision_ && !newton.step_by_derivatives(near)) {
+        } else if (unknowns > 0 && missed > LITTLE * precision_ && !newton.step_by_derivatives(near, section_tolerance_)) {
             return false;
         }
         if (newton.shooting.distance(before, near.free_end) > Stride::CLOSE) return false;
     }
-    section_tolerance_ = section_tolerance(from ? first_missed_ : missed);
     WrapReader reader(channels_, joints_, section_tolerance_);
     if (!reader.read(newton, near, after_)) return false;
     mesh_error_ = reader.error();
