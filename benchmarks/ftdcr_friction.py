@@ -1,13 +1,14 @@
 """The real robot of ftdcr.py driven along its recording with friction or backlash: what that changes.
 
-    python benchmarks/ftdcr_friction.py --every 24 --friction 0.05 0.2    # 5 minutes: friction is slow
-    python benchmarks/ftdcr_friction.py --every 1 --friction --fit        # backlash on all rows, 2 minutes
+    python benchmarks/ftdcr_friction.py --every 1                         # all rows, 10 to 20 minutes
+    python benchmarks/ftdcr_friction.py --every 1 --friction --fit play   # backlash alone, 2 minutes
 
 Every so many rows are driven along in their order, with linear displacements in between, from rest, once for
-every coefficient of all tendons and every backlash of all motors. The one that fits the first part of the
-rows best is chosen, and judged on the rest, which is held out from that choice. All other numbers are those
-of the robot ftdcr_calibrated: calibrated without friction, on rows of all the recording. With --fit one
-backlash of all motors is calibrated on the first part, with its standard error.
+every coefficient of all tendons and every backlash of all motors, and for every coefficient with the backlash
+that was best. The one that fits the first part of the rows best is chosen, and judged on the rest, which is
+held out from that choice. All other numbers are those of the robot ftdcr_calibrated: calibrated without
+friction, on rows of all the recording. With --fit one backlash, one coefficient, or both, of all tendons are
+calibrated on the first part, with their standard errors.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ import numpy as np
 import tactr
 from tactr import Frame, Measurements, Parameter, Robot
 
+START = {"play": 5e-5, "friction": 0.02}  # m, -
 FRAME = Frame(position=(0.269e-3, 1.950e-3, 1.606e-3), rotation=tuple(np.radians((0.341, -2.291, 0.0))))
 
 
@@ -31,13 +33,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--friction", type=float, nargs="*", default=[0.05], help="coefficients")
+    parser.add_argument("--friction", type=float, nargs="*", default=[0.02, 0.05, 0.1, 0.2], help="coefficients")
     parser.add_argument(
         "--play", type=float, nargs="*", default=[0.03, 0.04, 0.05, 0.06, 0.08, 0.1], help="in mm"
     )
     parser.add_argument("--every", type=int, default=6, help="one of so many rows")
     parser.add_argument("--train", type=float, default=0.5, help="share of the rows that choose")
-    parser.add_argument("--fit", action="store_true", help="calibrate the backlash, too")
+    parser.add_argument("--fit", nargs="*", default=[], choices=list(START), help="calibrate these, too")
     options = parser.parse_args(arguments)
     if not ftdcr.DATA.is_dir():
         print(
@@ -51,11 +53,20 @@ def main(arguments: Sequence[str] | None = None) -> None:
     tried = [{}, *({"play": 1e-3 * play} for play in options.play)]
     tried += [{"friction": coefficient} for coefficient in options.friction]
     errors = [_driven(data, train, fields) for fields in tried]
-    best = int(np.argmin([np.nanmean(error[:train]) for error in errors]))
+    play = tried[_best(errors[: 1 + len(options.play)], train)]
+    if play:
+        together = [{"friction": coefficient} | play for coefficient in options.friction]
+        errors += [_driven(data, train, fields) for fields in together]
+        tried += together
+    best = _best(errors, train)
     plain, chosen = (float(np.nanmean(errors[k][train:])) for k in (0, best))
     print(f"chosen: {_told(tried[best])}; held out {chosen:.3f} mm, {plain:.3f} mm without friction and play")
     if options.fit:
-        _fit(data, train)
+        _fit(data, train, options.fit)
+
+
+def _best(errors: list[np.ndarray], train: int) -> int:
+    return int(np.argmin([np.nanmean(error[:train]) for error in errors]))
 
 
 def _driven(data: Measurements, train: int, fields: dict[str, float]) -> np.ndarray:
@@ -83,10 +94,10 @@ def _driven(data: Measurements, train: int, fields: dict[str, float]) -> np.ndar
     return error
 
 
-def _fit(data: Measurements, train: int) -> None:
-    play = Parameter("tendons.*.play", common=True, start=5e-5)
+def _fit(data: Measurements, train: int, names: Sequence[str]) -> None:
+    free = [Parameter(f"tendons.*.{name}", common=True, start=START[name]) for name in names]
     robot = tactr.examples.load("ftdcr_calibrated")
-    fit = tactr.calibrate(robot, data.rows(slice(train)), parameters=[play], frame=FRAME, history=True)
+    fit = tactr.calibrate(robot, data.rows(slice(train)), parameters=free, frame=FRAME, history=True)
     print(f"{fit}\nheld out {1e3 * np.nanmean(fit.errors(data)[train:]):.3f} mm")
 
 

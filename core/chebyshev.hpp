@@ -90,11 +90,29 @@ inline double chebyshev_at(const PointValues& c, double x) {
     x = std::min(std::max(x, -1.0), 1.0);
     double b1 = 0.0, b2 = 0.0;
     for (int k = CURVE_POINTS - 1; k > 0; --k) {
-        const double b = c[k] + 2.0 * x * b1 - b2;
+        const double b = (c[k] - b2) + 2.0 * x * b1;
         b2 = b1;
         b1 = b;
     }
-    return c[0] + x * b1 - b2;
+    return (c[0] - b2) + x * b1;
+}
+
+/// The same at many x, side by side.
+template <size_t M>
+std::array<double, M> chebyshev_at(const PointValues& c, std::array<double, M> x) {
+    constexpr size_t WIDTH = 8;
+    for (size_t first = 0; first < M; first += WIDTH) {
+        double at[WIDTH], b1[WIDTH] = {}, b2[WIDTH] = {};
+        for (size_t i = 0; i < WIDTH; ++i) at[i] = std::min(std::max(x[std::min(first + i, M - 1)], -1.0), 1.0);
+        for (int k = CURVE_POINTS - 1; k > 0; --k)
+            for (size_t i = 0; i < WIDTH; ++i) {
+                const double b = (c[k] - b2[i]) + 2.0 * at[i] * b1[i];
+                b2[i] = b1[i];
+                b1[i] = b;
+            }
+        for (size_t i = 0; i < WIDTH && first + i < M; ++i) x[first + i] = (c[0] - b2[i]) + at[i] * b1[i];
+    }
+    return x;
 }
 
 /// Smooth between its edges (one more than pieces, ascending), where it may jump.
@@ -113,6 +131,20 @@ struct Curve {
     }
 
     double at(double sigma) const { return on(piece(sigma), sigma); }
+
+    template <size_t M>
+    std::array<double, M> on(int k, std::array<double, M> sigma) const {
+        for (double& x : sigma) x = (2.0 * x - (edges[k] + edges[k + 1])) / (edges[k + 1] - edges[k]);
+        return chebyshev_at(coefficients[k], sigma);
+    }
+
+    /// At ascending places.
+    PointValues at(PointValues sigma) const {
+        const int first = piece(sigma.front());
+        if (first == piece(sigma.back())) return on(first, sigma);
+        for (double& x : sigma) x = at(x);
+        return sigma;
+    }
 
     /// Whether a piece is the same all along.
     bool is_even(int k) const {

@@ -24,8 +24,8 @@ struct Falls {
                 before = even;
                 continue;
             }
-            PointValues tension = points_between(start, end);
-            for (double& x : tension) x = std::exp(profile->log.on(piece, x));
+            PointValues tension = profile->log.on(piece, points_between(start, end));
+            for (double& x : tension) x = std::exp(x);
             along[k] = ChebyshevRules::times(ChebyshevRules::get().slope, tension);
             for (double& x : along[k]) x *= -2.0 / (end - start);
             if (k > 0) at_edges[k] = before - std::exp(profile->log.on(piece, start));
@@ -61,9 +61,7 @@ Curve rate_curve(const Wrap& wrap) {
 PointValues rates_between(const Wrap& wrap, const Curve& curve, double start, double end) {
     const int k = curve.piece(0.5 * (start + end));
     if (start == curve.edges[k] && end == curve.edges[k + 1]) return wrap.rate[k];
-    PointValues out = points_between(start, end);
-    for (double& x : out) x = curve.on(k, x);
-    return out;
+    return curve.on(k, points_between(start, end));
 }
 
 }  // namespace

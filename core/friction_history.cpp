@@ -142,11 +142,19 @@ class ByTension {
     }
 };
 
-void fit_bend(const Wrap& wrap, int k, std::array<PointValues, 3>& c) {
+/// Of panel k, at the places from first to before the last, x in the panel.
+void note_bend(const Wrap& wrap, int k, int first, int last, const Places& x, Places (&bend)[3]) {
+    constexpr int WIDTH = 8;
     for (int a = 0; a < 3; ++a) {
         PointValues values;
         for (int p = 0; p < CURVE_POINTS; ++p) values[p] = wrap.bend[k][p][a];
-        c[a] = ChebyshevRules::times(ChebyshevRules::get().fit, values);
+        const PointValues c = ChebyshevRules::times(ChebyshevRules::get().fit, values);
+        for (int i = first; i < last; i += WIDTH) {
+            std::array<double, WIDTH> at;
+            for (int n = 0; n < WIDTH; ++n) at[n] = x[std::min(i + n, last - 1)];
+            at = chebyshev_at(c, at);
+            std::copy(at.begin(), at.begin() + std::min(WIDTH, last - i), bend[a] + i);
+        }
     }
 }
 
@@ -155,14 +163,12 @@ void fit_bend(const Wrap& wrap, int k, std::array<PointValues, 3>& c) {
 FrictionHistory::Course::Course(const Wrap& wrap) : bend{}, kink{} {
     const auto& edges = wrap.rise.edges;
     const double end = edges.back();
-    int fitted = -1;
-    std::array<PointValues, 3> c;
-    for (int i = 0; i < LOOKS && !wrap.straight; ++i) {
-        const double sigma = end * i / (LOOKS - 1);
-        const int k = wrap.rise.piece(sigma);
-        if (k != fitted) fit_bend(wrap, fitted = k, c);
-        const double x = (2.0 * sigma - (edges[k] + edges[k + 1])) / (edges[k + 1] - edges[k]);
-        for (int a = 0; a < 3; ++a) bend[a][i] = chebyshev_at(c[a], x);
+    const int panels = wrap.straight ? 0 : static_cast<int>(wrap.bend.size());
+    for (int k = 0, first = 0, last = 0; k < panels; ++k, first = last) {
+        Places x;
+        for (; last < LOOKS && (k + 1 == panels || end * last / (LOOKS - 1) < edges[k + 1]); ++last)
+            x[last] = (2.0 * end * last / (LOOKS - 1) - (edges[k] + edges[k + 1])) / (edges[k + 1] - edges[k]);
+        note_bend(wrap, k, first, last, x, bend);
     }
     for (size_t k = 0; k < edges.size(); ++k) {
         if (!(wrap.jumps[k] > 0.0)) continue;

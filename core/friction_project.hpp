@@ -5,6 +5,7 @@
 // slides as well.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -61,7 +62,13 @@ class FrictionWalk {
 
     double kept(double s) const { return old_.on(old_piece_, s); }
     double rise(double s) const { return wrap_.rise.on(rise_piece_, s); }
-    static double look(double a, double b, int i) { return i + 1 == LOOKS ? b : a + (b - a) * i / (LOOKS - 1); }
+    using Looks = std::array<double, LOOKS>;
+    static Looks looks(double a, double b) {
+        Looks out;
+        for (int i = 0; i < LOOKS; ++i) out[i] = a + (b - a) * i / (LOOKS - 1);
+        out.back() = b;
+        return out;
+    }
 
     void begin(double place, int slide) {
         if (runs_.empty() || runs_.back().slide != slide) runs_.push_back({place, slide, y_, driven_});
@@ -96,9 +103,10 @@ class FrictionWalk {
         if (old_.is_even(old_piece_) && wrap_.rise.is_even(rise_piece_)) return b;
         const double y = y_, start = rise(a);
         const auto beyond = [&](double s) { return way * (kept(s) - (y + way * (rise(s) - start))); };
+        const Looks at = looks(a, b), aim = old_.on(old_piece_, at), phi = wrap_.rise.on(rise_piece_, at);
         for (int i = 1; i < LOOKS; ++i) {
-            if (beyond(look(a, b, i)) > 0.0) continue;
-            const double x = root(beyond, look(a, b, i - 1), look(a, b, i));
+            if (way * (aim[i] - (y + way * (phi[i] - start))) > 0.0) continue;
+            const double x = root(beyond, at[i - 1], at[i]);
             y_ = kept(x);
             driven_ = false;
             if (b - x <= EDGE_GAP) {
@@ -115,17 +123,13 @@ class FrictionWalk {
     /// Up to b, or to where the old profile falls or rises faster than friction holds.
     double stay(double a, double b) {
         if (old_.is_even(old_piece_)) return hold(a, b);
-        double y[LOOKS], phi[LOOKS];
-        for (int i = 0; i < LOOKS; ++i) {
-            y[i] = kept(look(a, b, i));
-            phi[i] = rise(look(a, b, i));
-        }
+        const Looks at = looks(a, b), y = old_.on(old_piece_, at), phi = wrap_.rise.on(rise_piece_, at);
         for (int way : {-1, 1}) {
             int least = 0;  // where way y - phi, which falls where the cone holds, is least so far
             for (int i = 1; i < LOOKS; ++i) {
                 const double g = way * y[i] - phi[i], lowest = way * y[least] - phi[least];
                 if (g < lowest) least = i;
-                if (g - lowest > most_beyond_) return leave(a, b, way, least);
+                if (g - lowest > most_beyond_) return leave(a, b, way, at[std::max(least - 1, 0)], at[least + 1]);
             }
         }
         return hold(a, b);
@@ -138,9 +142,10 @@ class FrictionWalk {
         return b;
     }
 
-    double leave(double a, double b, int way, int least) {
+    /// Where the old profile is least inside the cone, between first and last.
+    double leave(double a, double b, int way, double first, double last) {
         const auto g = [&](double s) { return way * kept(s) - rise(s); };
-        double x = std::max(a, least_of(g, look(a, b, std::max(least - 1, 0)), look(a, b, least + 1)));
+        double x = std::max(a, least_of(g, first, last));
         driven_ = false;
         if (x > a + EDGE_GAP) begin(a, 0);
         else x = a;
@@ -154,13 +159,14 @@ class FrictionWalk {
         const double start = rise(a), y = y_;
         const auto ahead = [&](double s) { return way * (kept(s) - (y + way * (rise(s) - start))); };
         bool lost = false;
+        const Looks at = looks(a, b), aim = old_.on(old_piece_, at), phi = wrap_.rise.on(rise_piece_, at);
         for (int i = 1; i < LOOKS; ++i) {
-            const double here = ahead(look(a, b, i));
+            const double here = way * (aim[i] - (y + way * (phi[i] - start)));
             if (here > 0.0 || !lost) {
                 lost = lost || here > noise_;
                 continue;
             }
-            const double x = root(ahead, look(a, b, i - 1), look(a, b, i));
+            const double x = root(ahead, at[i - 1], at[i]);
             y_ = kept(x);
             if (x >= b - EDGE_GAP) return b;
             begin(x, 0);
@@ -248,10 +254,11 @@ class FrictionWalk {
         if (run.slide == 0) {
             const int k = old_.piece(0.5 * (a + b));
             if (old_.is_even(k) || (old_.edges[k] == a && old_.edges[k + 1] == b)) return old_.coefficients[k];
-            for (double& at : y) at = old_.on(k, at);
+            y = old_.on(k, y);
         } else {
             const double base = wrap_.rise.on(wrap_.rise.piece(run.start + 1e-12), run.start);
-            for (double& at : y) at = run.y + run.slide * (wrap_.rise.at(at) - base);
+            y = wrap_.rise.at(y);
+            for (double& at : y) at = run.y + run.slide * (at - base);
         }
         return ChebyshevRules::times(ChebyshevRules::get().fit, y);
     }

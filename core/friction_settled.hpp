@@ -21,10 +21,12 @@ struct FrictionSettled {
     std::vector<std::optional<FrictionProfile>> profiles;
     std::vector<Wrap> wraps;
     double missed = 0.0;  // rad, by how much wraps and profiles disagree
+    double first_missed = 0.0;  // by the first of the rounds
     int rounds = 0;
     std::vector<RoundsPair> pairs;  // of the last rounds
     std::vector<double> at;         // all that its actuators pass on, to tell ways by
     mutable std::optional<bool> stable;  // where it was asked for
+    mutable double proven = 0.0;         // determinant of d(base)/d(free end) where that was found out last, stable ever since
     /// By channel and watched place: length of the path from there on when the tendon last slid there, or where slip began to
     /// be watched, m; empty: not yet.
     std::vector<std::vector<double>> length_when_slid;

@@ -1,5 +1,7 @@
 #include "friction_step.hpp"
 
+#include <cmath>
+
 #include "free_end.hpp"
 #include "solve.hpp"
 #include "starts.hpp"
@@ -10,13 +12,26 @@ bool is_stable(const FrictionSettled& settled) {
     if (!settled.stable) {
         StabilityReport report;
         settled.stable = stability_of(settled.robot.view(), settled.solution, 0, report) && report.stable;
+        settled.proven = settled.solution.base_determinant;
     }
     return *settled.stable;
 }
 
 namespace {
 
+/// On a way of equilibria a conjugate point comes in at the base, where the determinant passes zero (the index grows with the
+/// length, Morse 1934): far from there, and near to where stability was found out, there is none yet.
+void stay_stable(const FrictionSettled& near, const FrictionSettled& next) {
+    constexpr double LEAST = 0.1, CHANGE = 2.0;
+    const double determinant = next.solution.base_determinant, ratio = determinant / near.proven;
+    if (next.stable || !near.stable || !*near.stable || !(std::fabs(determinant) > LEAST)) return;
+    if (!(ratio > 1.0 / CHANGE && ratio < CHANGE)) return;
+    next.stable = true;
+    next.proven = near.proven;
+}
+
 bool goes_on(const FrictionSettled& near, const FrictionSettled& next, double turn) {
+    stay_stable(near, next);
     return free_end_distance(near.robot.view(), near.solution, next.solution) <= turn && (is_stable(next) || !is_stable(near));
 }
 

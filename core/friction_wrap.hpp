@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "chebyshev.hpp"
+#include "free_tube.hpp"
 #include "newton.hpp"
 #include "tendon_chords.hpp"
 #include "tendon_directions.hpp"
@@ -75,7 +76,9 @@ class WrapReader {
   public:
     using Joints = std::vector<std::vector<double>>;  // by channel
 
-    WrapReader(const std::vector<FrictionChannel>& channels, const Joints& joints) : channels_(channels), joints_(joints) {}
+    /// section_tolerance: to which cross-sections are solved.
+    WrapReader(const std::vector<FrictionChannel>& channels, const Joints& joints, double section_tolerance)
+        : channels_(channels), joints_(joints), tolerance_(section_tolerance) {}
 
     /// The shape as the solver has it: its free end and mesh in the solution, which gets the residual there. False: it
     /// cannot be marched along.
@@ -83,15 +86,20 @@ class WrapReader {
         return bears_at_ends(newton) ? read_chords(newton, solution, wraps) : read_directions(newton, solution, wraps);
     }
 
+    /// By how much a march on the mesh misses the tip at most, m, where that is known without one; infinite: it is not.
+    double error() const { return error_; }
+
   private:
     static constexpr double SAME_DIRECTION = 1e-5;  // rad: but for the fit
     using Directions = std::array<Triple, CURVE_POINTS>;
 
     const std::vector<FrictionChannel>& channels_;
     const Joints& joints_;
+    const double tolerance_;
     const ChebyshevRules& rules_ = ChebyshevRules::get();
     std::vector<double> edges_, places_;  // s of the panels' ends, and of all their points
     std::vector<Directions> directions_;  // of the channel, by panel
+    double error_ = INFINITY;
 
     // --- chords between disks --------------------------------------------------------------------------------------
 
@@ -114,12 +122,9 @@ class WrapReader {
         return true;
     }
 
-    bool read_chords(NewtonSolver& newton, Solution& solution, std::vector<Wrap>& wraps) const {
-        TendonChords seen(newton.robot, newton.layout);
-        BaseState<double> base;
-        if (!newton.watch(solution, seen, base)) return false;
-        double turn[4];
-        newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
+    bool read_chords(NewtonSolver& newton, Solution& solution, std::vector<Wrap>& wraps) {
+        std::vector<TendonChord> chords;
+        if (!find_chords(newton, solution, chords)) return false;
         wraps.resize(channels_.size());
         for (size_t c = 0; c < channels_.size(); ++c) {
             const FrictionChannel& channel = channels_[c];
@@ -130,17 +135,36 @@ class WrapReader {
             for (size_t k = 0; k < newton.layout.sections.size(); ++k) {
                 const auto& section = newton.layout.sections[k];
                 if (section.distal < start + EDGE_GAP || section.proximal > start + channel.end - EDGE_GAP) continue;
-                const TendonChord& part = seen.found[k * newton.robot.tendon_count + channel.tendon];
-                double along[3], out[3];
-                for (int a = 0; a < 3; ++a) along[a] = part.distal[a] - part.proximal[a];
-                to_world(turn, along, out);
-                chord.push_back({out[0], out[1], out[2]});
+                const TendonChord& part = chords[k * newton.robot.tendon_count + channel.tendon];
+                chord.push_back({part.distal[0] - part.proximal[0], part.distal[1] - part.proximal[1], part.distal[2] - part.proximal[2]});
                 add_panel(section.distal - start, wrap);
                 wrap.rate.back().fill(part.length / (section.distal - section.proximal));
             }
             finish(channel, wrap);
             note_disks(channel, chord, Triple{}, wrap);
         }
+        return true;
+    }
+
+    /// In world axes, but for where they begin.
+    bool find_chords(NewtonSolver& newton, Solution& solution, std::vector<TendonChord>& chords) {
+        if (FreeTube::fits(newton)) {
+            FreeTube tube(newton, tolerance_);
+            if (!tube.read(chords)) return false;
+            tube.note(solution);
+            error_ = tube.error_on(solution.mesh);
+            solution.tendon_length.assign(newton.robot.tendon_count, 0.0);
+            for (size_t i = 0; i < chords.size(); ++i) solution.tendon_length[i % newton.robot.tendon_count] += chords[i].length;
+            return true;
+        }
+        TendonChords seen(newton.robot, newton.layout);
+        BaseState<double> base;
+        if (!newton.watch(solution, seen, base, tolerance_)) return false;
+        double turn[4];
+        newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
+        chords = std::move(seen.found);
+        for (TendonChord& chord : chords)
+            for (Triple* end : {&chord.distal, &chord.proximal}) to_world(turn, Triple(*end).data(), end->data());
         return true;
     }
 
@@ -198,19 +222,33 @@ class WrapReader {
 
     bool read_directions(NewtonSolver& newton, Solution& solution, std::vector<Wrap>& wraps) {
         find_panels(newton.layout, newton.actuation.translation);
-        TendonDirections seen(newton.robot, newton.layout, places_);
-        BaseState<double> base;
-        if (!newton.watch(solution, seen, base) || !seen.complete()) return false;
-        double turn[4];
-        newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
-        seen.turn(turn);
+        std::vector<TendonDirection> tendons;
+        if (!find_tendons(newton, solution, tendons)) return false;
         wraps.resize(channels_.size());
         for (size_t c = 0; c < channels_.size(); ++c) {
             const double start = newton.actuation.translation[channels_[c].tube];
-            place(channels_[c], start, newton.robot.tendon_count, seen, wraps[c]);
+            place(channels_[c], start, newton.robot.tendon_count, tendons, wraps[c]);
             if (channels_[c].over_disks) over_disks(channels_[c], wraps[c]);
             else along(channels_[c], wraps[c]);
         }
+        return true;
+    }
+
+    /// At the points of all panels, in world axes.
+    bool find_tendons(NewtonSolver& newton, Solution& solution, std::vector<TendonDirection>& tendons) {
+        if (FreeTube::fits(newton)) {
+            FreeTube tube(newton, tolerance_);
+            if (!tube.read(edges_, tendons)) return false;
+            tube.note(solution);
+            return true;
+        }
+        TendonDirections seen(newton.robot, newton.layout, places_);
+        BaseState<double> base;
+        if (!newton.watch(solution, seen, base, tolerance_) || !seen.complete()) return false;
+        double turn[4];
+        newton.shooting.world_turn(base, newton.actuation.rotation[0], turn);
+        seen.turn(turn);
+        tendons = std::move(seen.found);
         return true;
     }
 
@@ -235,7 +273,7 @@ class WrapReader {
     }
 
     /// The channel's share of the panels, with its directions and rates; base: s of its tube's proximal end.
-    void place(const FrictionChannel& channel, double base, int tendons, const TendonDirections& seen, Wrap& wrap) {
+    void place(const FrictionChannel& channel, double base, int count, const std::vector<TendonDirection>& tendons, Wrap& wrap) {
         size_t k = 0;
         while (0.5 * (edges_[k] + edges_[k + 1]) < base) ++k;
         clear(wrap);
@@ -244,7 +282,7 @@ class WrapReader {
             add_panel(edges_[k + 1] - base, wrap);
             directions_.emplace_back();
             for (int p = 0; p < CURVE_POINTS; ++p) {
-                const TendonDirection& tendon = seen.found[(k * CURVE_POINTS + p) * tendons + channel.tendon];
+                const TendonDirection& tendon = tendons[(k * CURVE_POINTS + p) * count + channel.tendon];
                 wrap.rate.back()[p] = tendon.rate;
                 directions_.back()[p] = tendon.direction;
             }

@@ -102,6 +102,20 @@ bool NewtonSolver::plain_march(Solution& solution, const Actuation<double>& at, 
     return found;
 }
 
+bool NewtonSolver::step_by_derivatives(Solution& solution, double section_tolerance) {
+    March<double, double> march(robot, layout, actuation, shooting.newton_options());
+    shooting.scale(march);
+    march.solver.precision = Precision::checked;
+    march.solver.tolerance = section_tolerance;
+    tell_shift(solution);
+    if (!march.run(solution.free_end, solution.mesh)) return false;
+    double missed[MAX_UNKNOWNS];
+    shooting.residual(march.base, actuation.rotation, missed);
+    if (!std::isfinite(norm(missed))) return false;
+    step_with_neighbour(missed, solution);
+    return true;
+}
+
 void NewtonSolver::approach(const Solution& guess, Solution& solution) {
     double missed[MAX_UNKNOWNS];
     BaseState<double> met;  // the base the neighbour met: its own rotations, upright

@@ -107,14 +107,9 @@ class NewtonSolver {
         return true;
     }
 
-    /// By the derivatives that the solution has to where they meet the base. False: a section had no equilibrium.
-    bool step_by_derivatives(Solution& solution) {
-        if (!evaluate(solution, Kind::check)) return false;
-        double missed[MAX_UNKNOWNS];
-        std::copy(residual, residual + shooting.unknowns, missed);
-        step_with_neighbour(missed, solution);
-        return true;
-    }
+    /// By the derivatives that the solution has to where they meet the base. section_tolerance: of the march that it takes. False:
+    /// a section had no equilibrium.
+    bool step_by_derivatives(Solution& solution, double section_tolerance);
 
     /// The step that the solution's derivatives ask for at the last residual. False: there is none.
     bool chord(const Solution& solution, double (&step)[MAX_UNKNOWNS]) const {
@@ -126,12 +121,13 @@ class NewtonSolver {
         return solve_dense(shooting.unknowns, A, step) != 0.0;
     }
 
-    /// A check, its steps seen by an observer. False: a section had no equilibrium.
+    /// A check, its steps seen by an observer, its sections solved to a tolerance. False: a section had no equilibrium.
     template <class Observer>
-    bool watch(Solution& solution, Observer& observer, BaseState<double>& base) {
+    bool watch(Solution& solution, Observer& observer, BaseState<double>& base, double section_tolerance = SECTION_TOLERANCE) {
         March<double, double> march(robot, layout, actuation, shooting.full_options());
         shooting.scale(march);
         march.solver.precision = Precision::checked;
+        march.solver.tolerance = section_tolerance;
         tell_shift(solution);
         if (!march.run(solution.free_end, solution.mesh, observer)) return false;
         base = march.base;

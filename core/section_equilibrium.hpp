@@ -35,6 +35,19 @@ TACTR_ANY inline void copy_strains(const StrainsOf<E>& from, int tubes, StrainsO
     }
 }
 
+/// On the line from one to another at a share of the way, 1 at the other.
+inline void carry_on(const Strains& from, const Strains& to, double share, int tubes, Strains& out) {
+    const auto line = [share](double a, double b) { return a + share * (b - a); };
+    out.kx = line(from.kx, to.kx);
+    out.ky = line(from.ky, to.ky);
+    out.wx = line(from.wx, to.wx);
+    out.wy = line(from.wy, to.wy);
+    for (int a = 0; a < tubes; ++a) {
+        out.tau[a] = line(from.tau[a], to.tau[a]);
+        out.eta[a] = line(from.eta[a], to.eta[a]);
+    }
+}
+
 /// A tendon at one cross-section, in its host's material frame.
 template <class P>
 struct TendonState {

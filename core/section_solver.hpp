@@ -27,6 +27,7 @@ class SectionSolver {
 
     double moment_scale = 1.0, force_scale = 1.0;  // of the residual
     Precision precision = Precision::full;
+    double tolerance = SECTION_TOLERANCE;  // of the residual
     double worst_residual = 0.0;
     double least_stretch = 1.0;    // beyond the rest stretch
     double shortest_tendon = 1.0;  // least |q| of a pulled tendon so far: 0 at a kink
@@ -277,7 +278,7 @@ class SectionSolver {
             const double worst = residual(section, z, packing, total, tube);
             if (iteration == 0 && !std::isfinite(worst)) return false;  // there is nothing yet to go back to
             if (LANES == 0 && precision == Precision::rough && worst < CLOSE_ENOUGH) return true;
-            if (worst <= SECTION_TOLERANCE) {
+            if (worst <= tolerance) {
                 worst_residual = larger(worst_residual, worst);
                 if (LANES == 0 && precision == Precision::checked) return true;
                 return finish(section, total, tube, e, LANES == 0 && last < SAME_TANGENT);

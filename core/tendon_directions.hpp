@@ -34,7 +34,7 @@ class TendonDirections {
         if (!dense_.prepare(march, section, before, s, h)) return;
         for (int read = 0; next_ >= 0 && places_[next_] > s + h; --next_, ++read) {
             const double x = (places_[next_] - s) / h;
-            if (read > 1) carry_on(section, x);
+            if (read > 1) carry_on(last_.strains, here_.strains, (x - last_.x) / (here_.x - last_.x), section.active_count, dense_.strains);
             solve(march, section, x);
             last_ = here_;
             here_ = {x, dense_.strains};
@@ -64,21 +64,6 @@ class TendonDirections {
     int tendons_, next_;
     DenseOutput<double> dense_;
     Place here_, last_;
-
-    /// Strains at x from those at the two places before.
-    void carry_on(const Section<double>& section, double x) {
-        const double ahead = (x - here_.x) / (here_.x - last_.x);
-        const auto line = [ahead](double here, double last) { return here + ahead * (here - last); };
-        Strains& e = dense_.strains;
-        e.kx = line(here_.strains.kx, last_.strains.kx);
-        e.ky = line(here_.strains.ky, last_.strains.ky);
-        e.wx = line(here_.strains.wx, last_.strains.wx);
-        e.wy = line(here_.strains.wy, last_.strains.wy);
-        for (int a = 0; a < section.active_count; ++a) {
-            e.tau[a] = line(here_.strains.tau[a], last_.strains.tau[a]);
-            e.eta[a] = line(here_.strains.eta[a], last_.strains.eta[a]);
-        }
-    }
 
     template <class M>
     void solve(M& march, const Section<double>& section, double x) {

@@ -15,6 +15,8 @@ namespace {
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
 constexpr double LOOK_BELOW = 0.2;    // of the limit, missed: from here on it is seen whether a step is too long
 constexpr double LITTLE = 10.0;        // of the precision, missed: the free end is where the last march said, but for what it forgives
+constexpr double SECTIONS_SHARE = 1e-3, ROUGHEST = 1e-6;  // tolerance of sections: of what was missed, and at most
+constexpr double LAST_ROUNDS = 100.0;                    // of the precision, missed: what follows may be the last
 constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
 
 /// Tension over that at the base, as polynomials.
@@ -26,9 +28,8 @@ void add_pieces(const FrictionProfile& profile, double y0, std::vector<TensionPi
             out.push_back({edges[k], 1, {std::exp(profile.log.coefficients[k][0] - y0)}});
             continue;
         }
-        PointValues values;
-        const PointValues places = points_between(edges[k], edges[k + 1]);
-        for (int p = 0; p < CURVE_POINTS; ++p) values[p] = std::exp(profile.log.on(static_cast<int>(k), places[p]) - y0);
+        PointValues values = profile.log.on(static_cast<int>(k), points_between(edges[k], edges[k + 1]));
+        for (double& x : values) x = std::exp(x - y0);
         PointValues c = ChebyshevRules::times(rules.fit, values);
         double largest = 0.0;
         for (double x : c) largest = larger(largest, std::fabs(x));
@@ -52,10 +53,8 @@ void add_rises(const std::vector<double>& joints, const double* numbers, Curve& 
         correction.coefficients.push_back(ChebyshevRules::times(rules.fit, values));
     }
     for (size_t k = 0; k < rise.coefficients.size(); ++k) {
-        PointValues values = points_between(rise.edges[k], rise.edges[k + 1]);
         const int piece = correction.piece(0.5 * (rise.edges[k] + rise.edges[k + 1]));
-        for (double& x : values) x = correction.on(piece, x);
-        values = ChebyshevRules::times(rules.fit, values);
+        const PointValues values = ChebyshevRules::times(rules.fit, correction.on(piece, points_between(rise.edges[k], rise.edges[k + 1])));
         for (int i = 0; i < CURVE_POINTS; ++i) rise.coefficients[k][i] += values[i];
     }
 }
@@ -78,6 +77,7 @@ bool FrictionRounds::start(const Solution& solution) {
 
 void FrictionRounds::start(const FrictionSettled& near, const std::vector<const FrictionSettled*>& past) {
     wraps_ = near.wraps;
+    first_missed_ = near.first_missed;
     std::vector<double> now;
     numbers_of(wraps_, now);
     for (const RoundsPair& pair : near.pairs)
@@ -137,7 +137,7 @@ bool FrictionRounds::read(const RobotTables<double>& shaped, const Solution& sol
     const Actuation<double> at{here.tension.data(), here.rotation.data(), here.translation.data(), 1.0, 1.0};
     NewtonSolver newton(view, at, Settings{});
     if (!newton.take_over(solution, here)) return false;
-    return WrapReader(channels_, joints_).read(newton, here, wraps);
+    return WrapReader(channels_, joints_, SECTION_TOLERANCE).read(newton, here, wraps);
 }
 
 bool FrictionRounds::compare() {
@@ -212,7 +212,12 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
             if (found.status != Status::converged) return false;
             near = std::move(found);
             step_.assign(newton.shooting.unknowns, 0.0);
+            section_tolerance_ = SECTION_TOLERANCE;
             if (!measure(robot, near) || too_long()) return false;
+        } else if (rigid && missed <= aim && mesh_error_ <= settings.tolerance) {
+            near.discretisation_error = mesh_error_;
+            near.length_error = 0.0;
+            near.mesh.excess.clear();
         } else if (rigid && missed <= aim) {  // what its steps err is yet to be known
             const auto steps = near.mesh.steps;
             const auto grade = near.mesh.grade;
@@ -221,7 +226,7 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
             if (!known && (!measure(robot, near) || too_long())) return false;
         }
         from = nullptr;
-        if (missed <= aim && near.discretisation_error <= settings.tolerance && near.base_residual <= settings.residual_tolerance) {
+        if (missed <= aim && section_tolerance_ <= SECTION_TOLERANCE && near.discretisation_error <= settings.tolerance && near.base_residual <= settings.residual_tolerance) {
             if (!NewtonSolver::succeed(near)) return false;
             settle(std::move(robot), std::move(near), out);
             return true;
@@ -237,8 +242,15 @@ bool FrictionRounds::lead(NewtonSolver& newton, const Solution& from, const Free
     return newton.take_over(from, near) || newton.carry_over(from, near);
 }
 
+/// Sections are solved no better than what is missed before asks for; to their tolerance where that is little.
+double FrictionRounds::section_tolerance(double still_missed) const {
+    if (still_missed < LAST_ROUNDS * precision_) return SECTION_TOLERANCE;
+    return std::clamp(SECTIONS_SHARE * still_missed, SECTION_TOLERANCE, ROUGHEST);
+}
+
 bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution& near) {
     const int unknowns = newton.shooting.unknowns;
+    section_tolerance_ = section_tolerance(from ? first_missed_ : missed);
     if (from) {
         if (!lead(newton, *from, ahead_ ? &*ahead_ : nullptr, near)) return false;
     } else {
@@ -247,19 +259,23 @@ bool FrictionRounds::glance(NewtonSolver& newton, const Solution* from, Solution
         if (near.mesh.steps.size() != newton.layout.sections.size()) {  // a front has come or gone
             const Solution last = near;
             if (!lead(newton, last, &last.free_end, near)) return false;
-        } else if (unknowns > 0 && missed > LITTLE * precision_ && !newton.step_by_derivatives(near)) {
+        } else if (unknowns > 0 && missed > LITTLE * precision_ && !newton.step_by_derivatives(near, section_tolerance_)) {
             return false;
         }
         if (newton.shooting.distance(before, near.free_end) > Stride::CLOSE) return false;
     }
-    if (!WrapReader(channels_, joints_).read(newton, near, after_)) return false;
+    WrapReader reader(channels_, joints_, section_tolerance_);
+    if (!reader.read(newton, near, after_)) return false;
+    mesh_error_ = reader.error();
     newton.note_edges(near);
     double step[MAX_UNKNOWNS];
     if (!newton.chord(near, step)) return false;
     step_.assign(step, step + unknowns);
     near.status = Status::converged;
     ++rounds;
-    return compare();
+    if (!compare()) return false;
+    if (from) first_missed_ = missed;
+    return true;
 }
 
 void FrictionRounds::settle(RobotTables<double>&& shaped, Solution&& solution, FrictionSettled& out) {
@@ -268,6 +284,7 @@ void FrictionRounds::settle(RobotTables<double>&& shaped, Solution&& solution, F
     out.profiles = std::move(profiles);
     out.wraps = std::move(after_);
     out.missed = missed;
+    out.first_missed = first_missed_;
     out.rounds = rounds;
     out.pairs = std::move(pairs_);
     out.at = at_;
@@ -295,7 +312,7 @@ void FrictionRounds::numbers_of(const std::vector<Wrap>& wraps, std::vector<doub
     for (size_t c = 0; c < wraps.size(); ++c) {
         const auto& joints = joints_[c];
         for (size_t k = 0; k + 1 < joints.size() && !channels_[c].over_disks; ++k)
-            for (double sigma : points_between(joints[k], joints[k + 1])) out.push_back(wraps[c].rise.at(sigma));
+            for (double rise : wraps[c].rise.at(points_between(joints[k], joints[k + 1]))) out.push_back(rise);
         for (double joint : joints) out.push_back(wraps[c].jump_at(joint));
     }
 }

@@ -1,5 +1,6 @@
 // Shape, tensions along the tendons and wrap angles that go together, from given profiles before.
 #pragma once
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -70,6 +71,9 @@ class FrictionRounds {
     std::vector<double> own_, given_;      // both as numbers
     std::optional<FreeEnd<double>> ahead_;  // where the free end goes on to
     std::vector<double> step_;              // that the last march says is left for it
+    double first_missed_ = 0.0;  // by the first round, of the step before until there is one
+    double section_tolerance_ = SECTION_TOLERANCE;  // of the last round
+    double mesh_error_ = INFINITY;          // of the last march's mesh, m, where it is known without derivatives
     std::vector<double> last_missed_, last_given_;
     std::vector<RoundsPair> pairs_;
 
@@ -77,6 +81,7 @@ class FrictionRounds {
     /// march, after one with derivatives where it starts from a neighbour. False: that is too far.
     bool glance(NewtonSolver& newton, const Solution* from, Solution& near);
 
+    double section_tolerance(double still_missed) const;
     static bool lead(NewtonSolver& newton, const Solution& from, const FreeEnd<double>* ahead, Solution& near);
 
     /// Wraps to go on with, and others from those of this round and those to go on with.
