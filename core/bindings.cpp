@@ -53,13 +53,13 @@ tactr::TubePiece tube_piece(const double* row) {
 }
 
 void read_tubes(PreparedRobot& robot, const Table& tubes, const Table& pieces) {
-    check_columns(tubes, 3, "tubes");  // length, linear density, number of pieces
+    check_columns(tubes, 4, "tubes");  // length, rotation compliance, linear density, number of pieces
     check_columns(pieces, 2 + tactr::MAX_TUBE_COEFFICIENTS * tactr::QUANTITIES, "pieces");
     if (tubes.shape(0) < 1 || tubes.shape(0) > tactr::MAX_TUBES) throw std::invalid_argument("1 to 8 tubes");
     int first = 0;
     for (size_t i = 0; i < tubes.shape(0); ++i) {
-        const int count = static_cast<int>(tubes(i, 2));
-        robot.tubes.push_back({tubes(i, 0), tubes(i, 1), first, first + count});
+        const int count = static_cast<int>(tubes(i, 3));
+        robot.tubes.push_back({tubes(i, 0), tubes(i, 1), tubes(i, 2), first, first + count});
         first += count;
     }
     if (static_cast<size_t>(first) != pieces.shape(0)) throw std::invalid_argument("pieces do not match tubes");

@@ -53,6 +53,14 @@ struct EnergyMarch {
         return march.run(solution.free_end, mesh, reader);
     }
 
+    /// Of the springs that turn the tubes.
+    double spring_energy() const {
+        double sum = 0.0;
+        for (int i = 0; i < march.robot.tube_count; ++i)
+            sum += 0.5 * march.robot.tubes[i].rotation_compliance * march.y[M3 + i] * march.y[M3 + i];
+        return sum;
+    }
+
     double load_potential() const {
         double sum = -reader.load_work;
         for (int c = 0; c < 3; ++c) sum += reader.load_sum[c] * march.base.position[c];
@@ -60,12 +68,12 @@ struct EnergyMarch {
     }
 };
 
-/// Strain energy, that of the tendons' pull (tension times length) and of dead forces, J; the largest double where the
+/// Strain energy, that of springs at the tubes, that of the tendons' pull (tension times length) and of dead forces, J; the largest double where the
 /// march fails. Moments and loads in body axes have no potential and are left out.
 inline double potential_energy(const Robot& robot, const Solution& solution) {
     EnergyMarch pass(robot, solution);
     if (!pass.run(solution)) return std::numeric_limits<double>::max();
-    double sum = pass.reader.pulled + pass.load_potential();
+    double sum = pass.reader.pulled + pass.load_potential() + pass.spring_energy();
     for (double energy : pass.reader.stored) sum += energy;
     return sum;
 }

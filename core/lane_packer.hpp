@@ -28,6 +28,8 @@ class LanePacker {
         if (robot.tube_count > LANE_TUBES || robot.tendon_count > LANE_TENDONS || !robot.tubes) return false;
         const Layout<double> layout = cut_into_sections(robot, translation);
         const Shooting shooting(robot, layout);
+        for (int i = 0; i < robot.tube_count; ++i)
+            if (robot.tubes[i].rotation_compliance > 0.0) return false;
         if (shooting.world || layout.sections.size() > LANE_SECTIONS) return false;
         loaded = shooting.loaded;
         plan.tubes = robot.tube_count;

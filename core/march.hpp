@@ -235,12 +235,17 @@ class March {
         z.d[lane] += v[2];
     }
 
+    /// Of what turns tube i, whose proximal end is that of the section, through a spring there. A clamp elsewhere has none.
+    T motor_angle(const Section<P>& section, int i) const {
+        const bool there = std::fabs(value(section.proximal) - value(actuation.translation[i])) <= BREAKPOINT_GAP;
+        return there ? y[PSI + i] - y[M3 + i] * robot.tubes[i].rotation_compliance : y[PSI + i];
+    }
+
     void leave_section(int k_section) {
         const Section<P>& section = layout.sections[k_section];
         const Section<P>* before = k_section > 0 ? &layout.sections[k_section - 1] : nullptr;
         for (int a = 0; a < section.active_count; ++a)
-            if (!before || slot_of(*before, section.active[a]) < 0)
-                base.psi[section.active[a]] = y[PSI + section.active[a]];
+            if (!before || slot_of(*before, section.active[a]) < 0) base.psi[section.active[a]] = motor_angle(section, section.active[a]);
         if (section.guided || (before && !before->guided)) return;
         for (int c = 0; c < 4; ++c) base.quaternion[c] = y[QUAT + c];
         for (int c = 0; c < 3; ++c) base.position[c] = y[POS + c];

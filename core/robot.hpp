@@ -28,6 +28,7 @@ using TubePiece = TubePieceOf<double>;
 template <class C>
 struct TubeOf {
     C length;
+    C rotation_compliance;      // of what turns its proximal end, rad/(N m)
     double weight_per_gravity;  // linear density, kg/m
     int piece_begin, piece_end;
 };

@@ -28,7 +28,10 @@ struct RobotTables {
 
 // Visits the numbers of two equal robots side by side: f(of a, of b).
 
-template <class A, class B, class F> void pair_up(TubeOf<A>& a, const TubeOf<B>& b, F f) { f(a.length, b.length); }
+template <class A, class B, class F> void pair_up(TubeOf<A>& a, const TubeOf<B>& b, F f) {
+    f(a.length, b.length);
+    f(a.rotation_compliance, b.rotation_compliance);
+}
 template <class A, class B, class F> void pair_up(TendonOf<A>& a, const TendonOf<B>& b, F f) { f(a.end, b.end); }
 
 template <class A, class B, class F> void pair_up(TubePieceOf<A>& a, const TubePieceOf<B>& b, F f) {
@@ -68,7 +71,7 @@ template <class A, class B, class F> void pair_up(DistributedLoadOf<A>& a, const
 
 // What is no number of the robot's own.
 
-template <class C> TubeOf<C> blank(const Tube& t) { return {C(0.0), t.weight_per_gravity, t.piece_begin, t.piece_end}; }
+template <class C> TubeOf<C> blank(const Tube& t) { return {C(0.0), C(0.0), t.weight_per_gravity, t.piece_begin, t.piece_end}; }
 template <class C> TubePieceOf<C> blank(const TubePiece& p) { return {C(0.0), p.count, p.plain, {}}; }
 template <class C> RoutingPieceOf<C> blank(const RoutingPiece& p) { return {C(0.0), C(0.0), p.polar, p.count_a, p.count_b, {}, {}}; }
 template <class C> TensionPieceOf<C> blank(const TensionPiece& p) { return {C(0.0), p.count, {}}; }

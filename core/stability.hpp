@@ -48,11 +48,18 @@ class JacobiObserver {
                 const double x = static_cast<double>(i) / samples_;
                 dense_.at(x, packed);
                 read(march.packing, section, packed, field);
-                note(march.packing, section, field, x, s, h);
+                note(march.packing, section, field, x, s, h, false);
             }
         }
         read(march.packing, section, march.z, field);
-        note(march.packing, section, field, 1.0, s, h);
+        const bool base = s + h <= layout_.sections.front().proximal + BREAKPOINT_GAP;
+        const bool springs = pass_springs(march, section, s + h);
+        note(march.packing, section, field, 1.0, s, h, base && !springs);
+        if (!springs) return;
+        assemble(field);
+        note(march.packing, section, field, 1.0, s, h, base);
+        read(march.packing, section, march.z, field);  // the note may have looked elsewhere
+        pass_springs(march, section, s + h);
     }
 
   private:
@@ -97,8 +104,21 @@ class JacobiObserver {
         }
     }
 
-    void note(const Packing& packing, const Section<double>& section, const Field& field, double x, double s, double h) {
-        const bool base = x == 1.0 && s + h <= layout_.sections.front().proximal + BREAKPOINT_GAP;
+    /// Springs that turn tubes whose proximal end is at s are a last stretch of them. False: there are none.
+    template <class M>
+    bool pass_springs(const M& march, const Section<double>& section, double s) {
+        bool any = false;
+        for (int a = 0; a < section.active_count; ++a) {
+            const int i = section.active[a];
+            const double compliance = march.robot.tubes[i].rotation_compliance;
+            if (!(compliance > 0.0) || std::fabs(s - march.actuation.translation[i]) > BREAKPOINT_GAP) continue;
+            psi_[i] -= march.z[3 * a + 2] * compliance;
+            any = true;
+        }
+        return any;
+    }
+
+    void note(const Packing& packing, const Section<double>& section, const Field& field, double x, double s, double h, bool base) {
         const double determinant = raw_determinant(field) / orientation_;
         report_.margin = std::min(report_.margin, determinant);
         if (samples_ > 0) {

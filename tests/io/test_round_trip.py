@@ -90,6 +90,7 @@ def robots(draw):
         precurvature=draw(pieces),
         translation=-draw(st.floats(0, 0.05)),
         rotation=draw(numbers),
+        rotation_compliance=draw(st.just(0.0) | positive),
         rotation_play=draw(st.just(0.0) | positive),
         translation_play=draw(st.just(0.0) | positive),
     )

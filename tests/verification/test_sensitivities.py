@@ -193,6 +193,7 @@ STEP_FROM_ZERO = {
     "moment": 1e-4,
     "acceleration": 1e-2,
     "phase": 1e-3,
+    "rotation_compliance": 1e-1,
     "rotation": 1e-3,
     "routing": 1e-5,
     "translation": 2e-5,
@@ -229,15 +230,20 @@ def step_of(robot: Robot, path: str) -> float:
     return 1e-3 * abs(value) if value else next(h for part, h in STEP_FROM_ZERO.items() if part in path)
 
 
+def side_of(robot: Robot, path: str) -> int:
+    """To which a number that may go no further than 0 can go; 0: to both."""
+    if value_of(robot, path):
+        return 0
+    return {"translation": -1, "inner_diameter": 1, "rotation_compliance": 1}.get(path.split(".")[-1], 0)
+
+
 @pytest.mark.parametrize("build", ROBOTS, ids=lambda build: build.__name__)
 def test_every_number_of_the_robot(build: Callable[[], Robot]) -> None:
     """Lengths, moduli, diameters, rest shapes, routings, loads: each against differences of solves."""
     shape = solved(build)
     paths = asked(build)
     for path, column in zip(paths, shape.sensitivity(paths).T, strict=True):
-        side = {"translation": -1, "inner_diameter": 1}.get(path.split(".")[-1], 0)
-        sides = (0 if value_of(shape.robot, path) else side,)
-        check_number(shape, path, column, step_of(shape.robot, path), sides)
+        check_number(shape, path, column, step_of(shape.robot, path), (side_of(shape.robot, path),))
 
 
 def test_parameters_come_in_the_order_asked_for() -> None:
@@ -354,4 +360,4 @@ def test_everything_across_tube_ends_that_pass_each_other(tube: str, other: str,
         if path in moving:
             check_number(shape, path, column, 0.4 * abs(shift) or 1e-5, (0,) if shift else (-1, 1))
         else:
-            check_number(shape, path, column, step_of(robot, path))
+            check_number(shape, path, column, step_of(robot, path), (side_of(robot, path),))

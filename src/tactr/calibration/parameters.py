@@ -34,13 +34,14 @@ LEAST_SCALE = {
     "angle": 0.3,
     "force": 1.0,
     "compliance": 1e-4,
+    "torsional compliance": 1.0,
     "curvature": 1.0,
     "number": 0.1,
 }
 LEAST_SCALE_OF_PLAY = {"play": 1e-3, "translation_play": 1e-3, "rotation_play": 0.05}
 NEVER_NEGATIVE = (
     "compliance", "pretension", "radius", "tension", "nu", "friction", "coefficient", "play", "rotation_play",
-    "translation_play",
+    "translation_play", "rotation_compliance",
 )  # fmt: skip
 POSITIVE = (
     "E", "G", "density", "linear_density", "EI_x", "EI_y", "GJ", "EA", "GA", "length", "rest_length", "end",

@@ -35,10 +35,20 @@ def under(prefix: str, make: Callable[[], T]) -> T:
         raise error.under(prefix) from None
 
 
+PLAIN = (
+    "name",
+    "length",
+    "translation",
+    "rotation",
+    "rotation_compliance",
+    "rotation_play",
+    "translation_play",
+)
+
+
 def build_tube(data: dict[str, Any]) -> Tube:
     """The tube. Raises RobotError with the field as the file names it."""
-    plain = ("name", "length", "translation", "rotation", "rotation_play", "translation_play")
-    values = {key: data[key] for key in plain if key in data}
+    values = {key: data[key] for key in PLAIN if key in data}
     if "sections" in data:
         values["section"] = [
             (piece["from"], under(f"sections[{k}]", lambda piece=piece: _section(piece)))

@@ -230,6 +230,9 @@ TUBE = Record(
             LENGTH, "z of the proximal end: 0 at the guide's exit (the default), negative behind it"
         ),
         "rotation": Field(ANGLE, "angle about +z imposed at the proximal end; default 0"),
+        "rotation_compliance": Field(
+            quantity("torsional compliance"), 'of what turns it, in series, such as "0.1 deg/N/mm"; default 0'
+        ),
         "limits": Field(TUBE_LIMITS, "how far its actuators go, for sliders"),
         "rotation_play": Field(ANGLE, "whole backlash of its rotation; default 0"),
         "translation_play": Field(LENGTH, "whole backlash of its translation; default 0"),

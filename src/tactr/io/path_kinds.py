@@ -14,6 +14,7 @@ KIND_OF = {  # by the last word of a path; lengths otherwise
     "linear density": ("linear_density",),
     "force": ("tension", "pretension"),
     "compliance": ("compliance",),
+    "torsional compliance": ("rotation_compliance",),
     "angle": ("rotation", "rotation_play", "phase", "rx", "ry", "rz"),
     "angle rate": ("rate",),
     "bending or torsional stiffness": ("EI_x", "EI_y", "GJ"),

@@ -75,6 +75,8 @@ def unbuild_tube(tube: Tube, place: str) -> dict[str, Any]:
         data["translation"] = write(tube.translation, "length")
     if tube.rotation:
         data["rotation"] = write(tube.rotation, "angle")
+    if tube.rotation_compliance:
+        data["rotation_compliance"] = write(tube.rotation_compliance, "torsional compliance")
     if tube.limits is not None:
         data["limits"] = write_ranges(tube.limits, rotation="angle", translation="length")
     if tube.rotation_play:

@@ -18,6 +18,9 @@ from tactr.robot.stretch import Stretch, stretches_of
 from tactr.robot.tube_friction import TubeFriction, plain_tube_friction
 
 
+AT_LEAST_ZERO = {"rotation_compliance": "rad/(N m)", "rotation_play": "rad", "translation_play": "m"}
+
+
 @dataclass(frozen=True)
 class Tube:
     """One tube (or rod) of the robot.
@@ -29,9 +32,10 @@ class Tube:
     either one triple, or pieces ``(start, (ux, uy, uz))``, stored as pieces; or a RestShape, for smooth ones
     and rest shear and stretch. Pieces hold from ``start`` on, where start is the tube's own arc length sigma
     in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
-    (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. limits: how far its
-    actuators go, if known. rotation_play: rad, translation_play: m, at least 0: the whole backlash of its
-    actuators, which counts in ``tactr.drive`` only. Raises RobotError.
+    (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. rotation_compliance:
+    rad/(N m), at least 0, of a spring through which it is: the end turns by the torque that the actuator holds
+    times this less. limits: how far its actuators go, if known. rotation_play: rad, translation_play: m, at
+    least 0: the whole backlash of its actuators, which counts in ``tactr.drive`` only. Raises RobotError.
     """
 
     name: str
@@ -42,6 +46,7 @@ class Tube:
     precurvature: Pieces[Vector3] | RestShape = ((0.0, (0.0, 0.0, 0.0)),)
     translation: float = 0.0
     rotation: float = 0.0
+    rotation_compliance: float = 0.0
     limits: TubeLimits | None = None
     rotation_play: float = 0.0
     translation_play: float = 0.0
@@ -59,6 +64,7 @@ class Tube:
             precurvature: PrecurvatureLike = (0.0, 0.0, 0.0),
             translation: float = 0.0,
             rotation: float = 0.0,
+            rotation_compliance: float = 0.0,
             limits: TubeLimits | None = None,
             rotation_play: float = 0.0,
             translation_play: float = 0.0,
@@ -74,7 +80,7 @@ class Tube:
                 self, translation=plain_translation(self.translation), rotation=plain_rotation(self.rotation)
             )
             check.store(self, limits=plain_limits(self.limits, TubeLimits))
-            for field, unit in (("rotation_play", "rad"), ("translation_play", "m")):
+            for field, unit in AT_LEAST_ZERO.items():
                 check.store(self, **{field: check.real(field, getattr(self, field), unit, least=0)})
             check.store(self, section=plain_section(self.section, length))
             check.store(self, material=plain_material(self.material, length))

@@ -28,7 +28,7 @@ def tables(robot: Robot) -> dict[str, np.ndarray]:
     """Tubes, pieces of tubes, tendons, routing, tension profiles and loads as numbers, a row for each."""
     index = {tube.name: i for i, tube in enumerate(robot.tubes)}
     return {
-        "tubes": _table([_tube_row(tube) for tube in robot.tubes], 3),
+        "tubes": _table([_tube_row(tube) for tube in robot.tubes], 4),
         "pieces": _table(
             [row for tube in robot.tubes for row in _piece_rows(tube)], 2 + QUANTITIES * TUBE_COEFFICIENTS
         ),
@@ -62,7 +62,7 @@ def _table(rows: Sequence[Sequence[float]], columns: int) -> np.ndarray:
 
 
 def _tube_row(tube: Tube) -> list[float]:
-    return [tube.length, tube.linear_density or 0.0, len(tube.stretches)]
+    return [tube.length, tube.rotation_compliance, tube.linear_density or 0.0, len(tube.stretches)]
 
 
 def _piece_rows(tube: Tube) -> list[list[float]]:

@@ -21,7 +21,7 @@ from tactr.statics.assemble import tables
 
 RELATIVE_STEP, LEAST_STEP = 1e-3, 1e-6
 WHOLE_NUMBERS = {  # columns of the tables that hold counts, indices and switches
-    "tubes": [2],
+    "tubes": [3],
     "pieces": [1],
     "tendons": [0, 1, 3, 4],
     "routing": [2, 3, 4],

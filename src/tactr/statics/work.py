@@ -16,8 +16,8 @@ from tactr.statics.shape import Shape
 class Work:
     """Work of the actuators along a path of shapes, and what became of it, J.
 
-    tension (tendons,), by shortening them; rotation, translation (tubes,); stored: rise of strain energy and
-    load potential from the first shape to the last. In exact equilibrium along the whole path total equals
+    tension (tendons,), by shortening them; rotation, translation (tubes,); stored: rise of strain energy,
+    load potential and the energy of springs at the tubes from the first shape to the last. In exact equilibrium along the whole path total equals
     stored; a path that snaps gives up imbalance.
     """
 
@@ -63,8 +63,14 @@ def work(shapes: Sequence[Shape]) -> Work:
         translation=along(
             lambda x: x.actuator_forces.force, lambda x: np.array([t.translation for t in x.robot.tubes])
         ),
-        stored=(last.energy - first.energy) + (last.load_potential - first.load_potential),
+        stored=_stored(last) - _stored(first),
     )
+
+
+def _stored(shape: Shape) -> float:
+    compliance = np.array([tube.rotation_compliance for tube in shape.robot.tubes])
+    springs = 0.5 * float(compliance @ shape.actuator_forces.torque**2)
+    return shape.energy + shape.load_potential + springs
 
 
 def _check_path(shapes: Sequence[Shape]) -> None:
