@@ -27,12 +27,13 @@ constexpr double NO_TENSION = -1e4;  // as a log tension: nothing comes down to 
 /// From the base to the end, cell by cell between edges of the old profile and of the wrap.
 class FrictionWalk {
   public:
-    bool left = false;  // somewhere the old profile was found beyond the cone
+    bool left;  // somewhere the old profile was found beyond the cone, now or before
 
-    /// precision: rad, to which the wrap is known; strict: the old profile is left wherever it is beyond the cone by more than
-    /// noise.
-    FrictionWalk(const Curve& old, const Wrap& wrap, double y0, double precision, bool strict = false)
-        : noise_(NOISE * precision), most_beyond_(strict ? noise_ : MOST_BEYOND * precision), old_(old), wrap_(wrap), y_(y0) {}
+    /// precision: rad, to which the wrap is known; strict: runs are not dropped for their being short, and what was left before
+    /// is left wherever it is beyond the cone by more than noise.
+    FrictionWalk(const Curve& old, const Wrap& wrap, double y0, double precision, bool strict = false, bool left_before = false)
+        : left(left_before), noise_(NOISE * precision), most_beyond_(strict && left ? noise_ : MOST_BEYOND * precision), strict_(strict),
+          old_(old), wrap_(wrap), y_(y0) {}
 
     /// joints: where a sliding profile is cut.
     FrictionProfile profile(const std::vector<double>& joints) {
@@ -56,6 +57,7 @@ class FrictionWalk {
     };
 
     const double noise_, most_beyond_;
+    const bool strict_;
     const Curve& old_;
     const Wrap& wrap_;
     std::vector<Run> runs_;
@@ -217,7 +219,7 @@ class FrictionWalk {
             const double start = runs_[k].start, length = next.start - start;
             if (length > SHORT * end) continue;
             const double y = next.slide == 0 ? old_.at(start + 1e-12) : next.y - next.slide * (wrap_.rise.at(next.start) - wrap_.rise.at(start));
-            if (length > SLIVER * end && !(std::fabs(y - runs_[k].y) <= noise_)) continue;
+            if (length > SLIVER * end && (strict_ || !(std::fabs(y - runs_[k].y) <= noise_))) continue;
             next.y = y;
             next.start = start;
             runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(k));

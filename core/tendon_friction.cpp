@@ -109,9 +109,9 @@ void FrictionRounds::profile(const std::vector<double>& tension) {
         profiles[c].reset();
         if (!(pull > 0.0)) continue;
         const Curve none = Curve::constant(NO_TENSION, channels_[c].end);
-        FrictionWalk walk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull), precision_, left_[c] && rounds >= PATIENT);
+        FrictionWalk walk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull), precision_, rounds >= PATIENT, left_[c]);
         profiles[c] = walk.profile(joints_[c]);
-        left_[c] = left_[c] || walk.left;
+        left_[c] = walk.left;
     }
     size_t c = 0;
     for (size_t j = 0; j < robot.tendons.size(); ++j) {
