@@ -13,7 +13,7 @@ lost          points that did not settle, of all points
 one way, back, phases    how far twice as many points move the tip at most: on the way to T, on the first way
               back, and over the first cycle out of step
 third, again  how far the third cycle's tips are from the second's at most, in step and out of step
-heat, heat'   heat over the third cycle against the motors' work, share of the work; in step, out of step
+heat, heat2   heat over the third cycle against the motors' work, share of the work; in step, out of step
 creep         the largest slip of a tendon whose tension was left as it was, out of step
 ms            CPU time for a point, all paths together
 
@@ -70,14 +70,16 @@ class Outcome:
         tail = f"{self.heat:9.3f}{self.heat_phases:9.3f}{1e3 * self.creep:9.3f}"
         time = 1e3 * self.seconds / self.points
         return (
-            f"{self.seed:6}{self.tubes:6}{self.tendons:8}{'yes' if self.disks else 'no':>6}{self.friction:9.2f}"
+            f"{self.seed:6}{self.tubes:6}{self.tendons:8}"
+            f"{'yes' if self.disks else 'no':>6}{self.friction:9.2f}"
             f"{self.lost:6}{moved}{tail}{time:8.1f}  {'; '.join(self.failed)}"
         )
 
 
 TITLES = (
     f"{'seed':>6}{'tubes':>6}{'tendons':>8}{'disks':>6}{'friction':>9}{'lost':>6}"
-    f"{'one way':>10}{'back':>10}{'phases':>10}{'third':>10}{'again':>10}{'heat':>9}{chr(39):>9}{'creep':>9}{'ms':>8}\n"
+    f"{'one way':>10}{'back':>10}{'phases':>10}{'third':>10}{'again':>10}"
+    f"{'heat':>9}{'heat2':>9}{'creep':>9}{'ms':>8}\n"
     f"{'':41}{'um':>10}{'um':>10}{'um':>10}{'um':>10}{'um':>10}{'':>18}{'mm':>9}"
 )
 
@@ -200,7 +202,10 @@ def report(found: list[Outcome]) -> bool:
     """Prints what all come to; True where it is good enough."""
     lost = [o for o in found if o.lost]
     points = sum(o.points for o in found)
-    print(f"\n{len(found)} robots; points that did not settle: {sum(o.lost for o in found)} of {points}, in {len(lost)} robots")
+    print(
+        f"\n{len(found)} robots; points that did not settle: {sum(o.lost for o in found)} of {points}, "
+        f"in {len(lost)} robots"
+    )
     lines = (
         ("half the steps, one way, um", "one_way", UM, ONE_WAY),
         ("half the steps, way back, um", "back", UM, BACK),
@@ -217,16 +222,21 @@ def report(found: list[Outcome]) -> bool:
         if not len(values):
             continue
         over = f"{(values > limit).sum()} of {len(values)} over {unit * limit:.3g}"
-        numbers = "".join(f"{unit * x:10.3g}" for x in (np.median(values), np.quantile(values, 0.9), values.max()))
+        numbers = "".join(
+            f"{unit * x:10.3g}" for x in (np.median(values), np.quantile(values, 0.9), values.max())
+        )
         print(f"{title:36}{numbers}{known[int(values.argmax())].seed:7}  {over}")
     times = 1e3 * np.array([o.seconds / o.points for o in found])
-    print(f"{'CPU time for a point, ms':36}{np.median(times):10.3g}{np.quantile(times, 0.9):10.3g}{times.max():10.3g}{found[int(times.argmax())].seed:7}")
+    numbers = "".join(f"{x:10.3g}" for x in (np.median(times), np.quantile(times, 0.9), times.max()))
+    print(f"{'CPU time for a point, ms':36}{numbers}{found[int(times.argmax())].seed:7}")
     return not lost and all(not o.one_way > ONE_WAY and not o.back > BACK for o in found)
 
 
 def main() -> int:
     """Run from the command line."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--points", type=int, default=20)

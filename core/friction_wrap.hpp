@@ -349,11 +349,12 @@ class WrapReader {
 
     static constexpr double AT_END = 1e-3;    // half lengths of the panel from its end: the cusp is there
     static constexpr double NOWHERE = 2.0;
+    static constexpr double ROUNDED = 0.3;    // of half of what one polynomial is for where the tendon slides
 
-    /// How far a cusp may be rounded, m: half of what one polynomial is for where the tendon slides.
+    /// How far a cusp may be rounded, m.
     static double blunt(const std::vector<double>& joints, double sigma) {
         const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, sigma);
-        return 0.5 * (*next - *(next - 1));
+        return ROUNDED * 0.5 * (*next - *(next - 1));
     }
 
     /// In half lengths from the middle; blunt alike.

@@ -14,7 +14,9 @@ namespace {
 
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
 constexpr int PATIENT = 6;    // rounds; then cusps stay, and what was left once is left for good: else they may come and go without end
+constexpr double NEAR = 100.0;  // of the precision, missed, for cusps to stay
 constexpr int RESTLESS = 12;  // rounds; then half of every step is taken: what comes and goes does so by less
+constexpr int STRAYED = 15;    // rounds with tensions to be found; then without what earlier rounds taught, with other fronts
 constexpr double LOOK_BELOW = 0.2;    // of the limit, missed: from here on it is seen whether a step is too long
 constexpr double LITTLE = 10.0;        // of the precision, missed: the free end is where the last march said, but for what it forgives
 constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
@@ -173,14 +175,14 @@ void FrictionRounds::mix(std::vector<double>& others, const std::vector<double>&
         if (static_cast<int>(pairs_.size()) > MOST_PAIRS) pairs_.pop_back();
     }
     const bool halved = next.empty() && rounds >= RESTLESS;
-    if (halved) pairs_.clear();
+    if (halved || (!next.empty() && rounds >= STRAYED)) pairs_.clear();
     const std::vector<double> share = shares(pairs_, gap);
     std::vector<double> correction(given.size(), 0.0);
     if (halved)
         for (size_t i = 0; i < correction.size(); ++i) correction[i] = -0.5 * gap[i];
     for (size_t c = 0; c < pairs_.size(); ++c)
         for (size_t i = 0; i < correction.size(); ++i) correction[i] -= share[c] * pairs_[c].given[i];
-    for (size_t c = 0; c < wraps_.size() && rounds >= PATIENT; ++c) after_[c].cusps = wraps_[c].cusps;
+    for (size_t c = 0; c < wraps_.size() && rounds >= PATIENT && missed <= NEAR * precision_; ++c) after_[c].cusps = wraps_[c].cusps;
     wraps_ = after_;
     add(correction, wraps_);
     for (size_t j = 0; j < next.size(); ++j) others[j] = next[j] + correction[given_.size() + j];

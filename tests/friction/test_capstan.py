@@ -84,8 +84,8 @@ def test_a_helix_round_a_straight_tube():
 
 
 def test_a_tendon_that_turns_one_way_and_then_the_other():
-    """y = y0 + c (sigma - inflection)^3 makes the angle atan(3 c (sigma - inflection)^2) with the axis: how much
-    it turns has a cusp where the angle is 0."""
+    """y = y0 + c (sigma - inflection)^3 makes the angle atan(3 c (sigma - inflection)^2) with the axis: how
+    much it turns has a cusp where the angle is 0."""
     inflection, c = 0.0713, 0.2
     cubic = (1e-3 - c * inflection**3, 3.0 * c * inflection**2, -3.0 * c * inflection, c)
     tube = Tube("tube", length=0.2, section=tactr.Annulus(2e-3, 1.6e-3), material=STIFF)
