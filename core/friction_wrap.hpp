@@ -349,7 +349,7 @@ class WrapReader {
 
     static constexpr double AT_END = 1e-3;    // half lengths of the panel from its end: the cusp is there
     static constexpr double NOWHERE = 2.0;
-    static constexpr double ROUNDED = 0.3;    // of half of what one polynomial is for where the tendon slides
+    static constexpr double ROUNDED = 0.5;    // of half of what one polynomial is for where the tendon slides
 
     /// How far a cusp may be rounded, m.
     static double blunt(const std::vector<double>& joints, double sigma) {
