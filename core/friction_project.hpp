@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "friction_wrap.hpp"
@@ -27,9 +28,13 @@ constexpr double NO_TENSION = -1e4;  // as a log tension: nothing comes down to 
 /// From the base to the end, cell by cell between edges of the old profile and of the wrap.
 class FrictionWalk {
   public:
-    /// precision: rad, to which the wrap is known.
-    FrictionWalk(const Curve& old, const Wrap& wrap, double y0, double precision)
-        : noise_(NOISE * precision), most_beyond_(MOST_BEYOND * precision), old_(old), wrap_(wrap), y_(y0) {}
+    bool left;  // somewhere the old profile was found beyond the cone, now or before
+
+    /// precision: rad, to which the wrap is known; strict: runs are not dropped for their being short, and what was left before
+    /// is left wherever it is beyond the cone by more than noise.
+    FrictionWalk(const Curve& old, const Wrap& wrap, double y0, double precision, bool strict = false, bool left_before = false)
+        : left(left_before), noise_(NOISE * precision), most_beyond_(strict && left ? noise_ : MOST_BEYOND * precision), strict_(strict),
+          old_(old), wrap_(wrap), y_(y0) {}
 
     /// joints: where a sliding profile is cut.
     FrictionProfile profile(const std::vector<double>& joints) {
@@ -53,6 +58,7 @@ class FrictionWalk {
     };
 
     const double noise_, most_beyond_;
+    const bool strict_;
     const Curve& old_;
     const Wrap& wrap_;
     std::vector<Run> runs_;
@@ -147,6 +153,7 @@ class FrictionWalk {
         const auto g = [&](double s) { return way * kept(s) - rise(s); };
         double x = std::max(a, least_of(g, first, last));
         driven_ = false;
+        left = true;
         if (x > a + EDGE_GAP) begin(a, 0);
         else x = a;
         y_ = kept(x);
@@ -218,16 +225,21 @@ class FrictionWalk {
             const double start = runs_[k].start, length = next.start - start;
             if (length > SHORT * end) continue;
             const double y = next.slide == 0 ? old_.at(start + 1e-12) : next.y - next.slide * (wrap_.rise.at(next.start) - wrap_.rise.at(start));
-            if (length > SLIVER * end && !(std::fabs(y - runs_[k].y) <= noise_)) continue;
+            if (length > SLIVER * end && (strict_ || !(std::fabs(y - runs_[k].y) <= noise_))) continue;
             next.y = y;
             next.start = start;
             runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(k));
         }
     }
 
-    /// Runs as polynomials: cut at joints where it slides, at the old edges where it is stuck.
+    /// Runs as polynomials: cut at joints and cusps where it slides, at the old edges where it is stuck.
     FrictionProfile pieces(const std::vector<double>& joints) {
         drop_slivers(joints.back());
+        std::vector<double> cuts = joints;
+        if (!wrap_.cusps.empty()) {
+            cuts.insert(cuts.end(), wrap_.cusps.begin(), wrap_.cusps.end());
+            cuts = merged(std::move(cuts));
+        }
         FrictionProfile out;
         out.log.edges.push_back(runs_.front().start);
         for (size_t k = 0; k < runs_.size(); ++k) {
@@ -235,7 +247,7 @@ class FrictionWalk {
             const double stop = k + 1 < runs_.size() ? runs_[k + 1].start : joints.back();
             if (stop - run.start <= EDGE_GAP) continue;
             std::vector<double> edges{run.start};
-            for (double cut : run.slide != 0 ? joints : old_.edges)
+            for (double cut : run.slide != 0 ? cuts : old_.edges)
                 if (cut > run.start + EDGE_GAP && cut < stop - EDGE_GAP) edges.push_back(cut);
             edges.push_back(stop);
             for (size_t i = 0; i + 1 < edges.size(); ++i) {

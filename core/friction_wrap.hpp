@@ -4,6 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -56,7 +57,8 @@ struct Wrap {
     std::vector<std::array<Triple, CURVE_POINTS>> bend;
     std::vector<Triple> kinks;
     std::vector<PointValues> rate;
-    bool straight = false;  // but for its kinks
+    std::vector<double> cusps;  // edges where it hardly turns, and its turning has a cusp
+    bool straight = false;      // but for its kinks
 
     double jump_at(double sigma) const {
         double sum = 0.0;
@@ -200,6 +202,7 @@ class WrapReader {
     static void clear(Wrap& wrap) {
         wrap.rise.edges.assign(1, 0.0);
         wrap.rate.clear();
+        wrap.cusps.clear();
     }
 
     static void add_panel(double end, Wrap& wrap) {
@@ -229,7 +232,7 @@ class WrapReader {
             const double start = newton.actuation.translation[channels_[c].tube];
             place(channels_[c], start, newton.robot.tendon_count, tendons, wraps[c]);
             if (channels_[c].over_disks) over_disks(channels_[c], wraps[c]);
-            else along(channels_[c], wraps[c]);
+            else along(channels_[c], joints_[c], wraps[c]);
         }
         return true;
     }
@@ -299,29 +302,130 @@ class WrapReader {
         return out;
     }
 
-    void along(const FrictionChannel& channel, Wrap& wrap) const {
+    void along(const FrictionChannel& channel, const std::vector<double>& joints, Wrap& wrap) const {
         double sofar = 0.0, mu_before = 0.0;
         Triple before{};
-        for (size_t k = 0; k < directions_.size(); ++k) {
-            const double start = wrap.rise.edges[k], length = wrap.rise.edges[k + 1] - start, mu = channel.coefficient(start);
-            PointValues turning;
+        for (size_t k = 0, n = 0; k < directions_.size(); ++k, ++n) {
+            const double start = wrap.rise.edges[n], length = wrap.rise.edges[n + 1] - start, mu = channel.coefficient(start);
             for (int p = 0; p < CURVE_POINTS; ++p) {
-                Triple& bend = wrap.bend[k][p];
+                Triple& bend = wrap.bend[n][p];
                 for (int q = 0; q < CURVE_POINTS; ++q)
                     for (int a = 0; a < 3; ++a) bend[a] += rules_.slope[p][q] * directions_[k][q][a];
                 for (double& x : bend) x *= mu * 2.0 / length;
-                turning[p] = std::sqrt(bend[0] * bend[0] + bend[1] * bend[1] + bend[2] * bend[2]);
             }
-            PointValues& rise = wrap.rise.coefficients[k];
-            rise = ChebyshevRules::times(rules_.integral, turning);
-            for (double& c : rise) c *= 0.5 * length;
-            rise[0] += sofar;
-            sofar = 0.0;
-            for (double c : rise) sofar += c;  // at the panel's end every polynomial is 1
             const double here = std::max(mu_before, mu);
-            if (k > 0 && here > 0.0) note_kink(here, before, at_end(k, false), wrap.jumps[k], wrap.kinks[k]);
+            if (k > 0 && here > 0.0) note_kink(here, before, at_end(k, false), wrap.jumps[n], wrap.kinks[n]);
             before = at_end(k, true);
             mu_before = mu;
+            PointValues turning = sizes(wrap.bend[n]);
+            const double cusp = cusp_of(wrap.bend[n], turning, blunt(joints, start + 0.5 * length) / (0.5 * length));
+            if (std::fabs(cusp) < 1.0 - AT_END) {
+                cut(wrap, n, cusp);
+                sofar = add_rise(wrap, n++, sizes(wrap.bend[n]), sofar);
+                turning = sizes(wrap.bend[n]);
+            } else if (std::fabs(cusp) < 1.0 + AT_END) {
+                note_cusp(wrap, cusp < 0.0 ? start : start + length);
+            }
+            sofar = add_rise(wrap, n, turning, sofar);
+        }
+    }
+
+    /// sofar: the rise where the panel starts. Returns that where it ends.
+    double add_rise(Wrap& wrap, size_t n, const PointValues& turning, double sofar) const {
+        const double half = 0.5 * (wrap.rise.edges[n + 1] - wrap.rise.edges[n]);
+        PointValues& rise = wrap.rise.coefficients[n];
+        rise = ChebyshevRules::times(rules_.integral, turning);
+        for (double& c : rise) c *= half;
+        rise[0] += sofar;
+        double end = 0.0;
+        for (double c : rise) end += c;  // at the panel's end every polynomial is 1
+        return end;
+    }
+
+    static PointValues sizes(const Directions& bend) {
+        PointValues out;
+        for (int p = 0; p < CURVE_POINTS; ++p) out[p] = std::sqrt(bend[p][0] * bend[p][0] + bend[p][1] * bend[p][1] + bend[p][2] * bend[p][2]);
+        return out;
+    }
+
+    // --- where a tendon runs nearly straight, how much it turns has a cusp, which no polynomial follows --------------
+
+    static constexpr double AT_END = 1e-3;    // half lengths of the panel from its end: the cusp is there
+    static constexpr double NOWHERE = 2.0;
+    static constexpr double ROUNDED = 0.5;    // of half of what one polynomial is for where the tendon slides
+
+    /// How far a cusp may be rounded, m.
+    static double blunt(const std::vector<double>& joints, double sigma) {
+        const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, sigma);
+        return ROUNDED * 0.5 * (*next - *(next - 1));
+    }
+
+    /// In half lengths from the middle; blunt alike.
+    double cusp_of(const Directions& bend, const PointValues& turning, double blunt) const {
+        const size_t p = static_cast<size_t>(std::min_element(turning.begin(), turning.end()) - turning.begin());
+        Triple slope{};
+        for (int q = 0; q < CURVE_POINTS; ++q)
+            for (int a = 0; a < 3; ++a) slope[a] += rules_.slope[p][q] * bend[q][a];
+        double x = rules_.point[p], beside = 0.0;
+        if (!(std::fabs(approach(bend[p], slope, x, beside)) < 1.1 && beside < 2.0 * blunt)) return NOWHERE;  // first guesses
+        std::array<PointValues, 3> at, slope_at;
+        for (int a = 0; a < 3; ++a) {
+            PointValues values;
+            for (int q = 0; q < CURVE_POINTS; ++q) values[q] = bend[q][a];
+            at[a] = ChebyshevRules::times(rules_.fit, values);
+            slope_at[a] = ChebyshevRules::times(rules_.fit, ChebyshevRules::times(rules_.slope, values));
+        }
+        for (int turn = 0; turn < 4 && std::fabs(x) < 1.0 + AT_END; ++turn) {
+            Triple b;
+            for (int a = 0; a < 3; ++a) {
+                b[a] = chebyshev_at(at[a], x);
+                slope[a] = chebyshev_at(slope_at[a], x);
+            }
+            approach(b, slope, x, beside);
+        }
+        return beside < blunt ? x : NOWHERE;
+    }
+
+    /// To where b + slope (x' - x) is least, and how small it is there, over the slope.
+    static double approach(const Triple& b, const Triple& slope, double& x, double& beside) {
+        double along = 0.0, square = 0.0, size = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            along += b[a] * slope[a];
+            square += slope[a] * slope[a];
+            size += b[a] * b[a];
+        }
+        if (!(square > 0.0)) return x = NOWHERE;
+        beside = std::sqrt(std::max(size - along * along / square, 0.0) / square);
+        return x -= along / square;
+    }
+
+    /// But for one that is there already.
+    static void note_cusp(Wrap& wrap, double place) {
+        if (wrap.cusps.empty() || place - wrap.cusps.back() > 1e-4 * wrap.rise.edges.back()) wrap.cusps.push_back(place);
+    }
+
+    /// Panel n into two at x in (-1, 1), which keep its polynomials.
+    void cut(Wrap& wrap, size_t n, double x) const {
+        const auto at = [n](auto& list) { return list.begin() + static_cast<std::ptrdiff_t>(n); };
+        const double start = wrap.rise.edges[n], end = wrap.rise.edges[n + 1];
+        const double place = 0.5 * (start + end) + 0.5 * x * (end - start);
+        note_cusp(wrap, place);
+        wrap.rise.edges.insert(at(wrap.rise.edges) + 1, place);
+        wrap.rise.coefficients.insert(at(wrap.rise.coefficients), PointValues{});
+        wrap.jumps.insert(at(wrap.jumps) + 1, 0.0);
+        wrap.kinks.insert(at(wrap.kinks) + 1, Triple{});
+        const Directions bend = wrap.bend[n];
+        const PointValues rate = wrap.rate[n];
+        wrap.bend.insert(at(wrap.bend), Directions{});
+        wrap.rate.insert(at(wrap.rate), PointValues{});
+        const PointValues places[2] = {points_between(-1.0, x), points_between(x, 1.0)};
+        for (int a = 0; a < 4; ++a) {
+            PointValues values = rate;
+            for (int p = 0; p < CURVE_POINTS && a < 3; ++p) values[p] = bend[p][a];
+            const PointValues c = ChebyshevRules::times(rules_.fit, values);
+            for (int part = 0; part < 2; ++part)
+                for (int p = 0; p < CURVE_POINTS; ++p)
+                    (a < 3 ? wrap.bend[n + part][p][a] : wrap.rate[n + part][p]) = chebyshev_at(c, places[part][p]);
         }
     }
 

@@ -13,6 +13,10 @@ namespace tactr {
 namespace {
 
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
+constexpr int PATIENT = 6;    // rounds; then cusps stay, and what was left once is left for good: else they may come and go without end
+constexpr double NEAR = 100.0;  // of the precision, missed, for cusps to stay
+constexpr int RESTLESS = 12;  // rounds; then half of every step is taken: what comes and goes does so by less
+constexpr int STRAYED = 15;    // rounds with tensions to be found; then without what earlier rounds taught, with other fronts
 constexpr double LOOK_BELOW = 0.2;    // of the limit, missed: from here on it is seen whether a step is too long
 constexpr double LITTLE = 10.0;        // of the precision, missed: the free end is where the last march said, but for what it forgives
 constexpr double SECTIONS_SHARE = 1e-3, ROUGHEST = 1e-6;  // tolerance of sections: of what was missed, and at most
@@ -64,7 +68,7 @@ void add_rises(const std::vector<double>& joints, const double* numbers, Curve& 
 FrictionRounds::FrictionRounds(const RobotTables<double>& plain, const std::vector<FrictionChannel>& channels,
                                std::vector<std::optional<Curve>> old, std::vector<double> at, const std::vector<double>& translation, double precision)
     : robot(plain), profiles(channels.size()), plain_(plain), channels_(channels), old_(std::move(old)), at_(std::move(at)),
-      translation_(translation), precision_(precision) {
+      translation_(translation), precision_(precision), left_(channels.size(), 0) {
     const Layout<double> layout = cut_into_sections(plain.view(), translation.data());
     std::vector<double> ends{layout.sections.front().proximal};
     for (const auto& section : layout.sections) ends.push_back(section.distal);
@@ -107,7 +111,9 @@ void FrictionRounds::profile(const std::vector<double>& tension) {
         profiles[c].reset();
         if (!(pull > 0.0)) continue;
         const Curve none = Curve::constant(NO_TENSION, channels_[c].end);
-        profiles[c] = FrictionWalk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull), precision_).profile(joints_[c]);
+        FrictionWalk walk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull), precision_, rounds >= PATIENT, left_[c]);
+        profiles[c] = walk.profile(joints_[c]);
+        left_[c] = walk.left;
     }
     size_t c = 0;
     for (size_t j = 0; j < robot.tendons.size(); ++j) {
@@ -168,10 +174,15 @@ void FrictionRounds::mix(std::vector<double>& others, const std::vector<double>&
         pairs_.insert(pairs_.begin(), {difference(gap, last_missed_), difference(given, last_given_)});
         if (static_cast<int>(pairs_.size()) > MOST_PAIRS) pairs_.pop_back();
     }
+    const bool halved = next.empty() && rounds >= RESTLESS;
+    if (halved || (!next.empty() && rounds >= STRAYED)) pairs_.clear();
     const std::vector<double> share = shares(pairs_, gap);
     std::vector<double> correction(given.size(), 0.0);
+    if (halved)
+        for (size_t i = 0; i < correction.size(); ++i) correction[i] = -0.5 * gap[i];
     for (size_t c = 0; c < pairs_.size(); ++c)
         for (size_t i = 0; i < correction.size(); ++i) correction[i] -= share[c] * pairs_[c].given[i];
+    for (size_t c = 0; c < wraps_.size() && rounds >= PATIENT && missed <= NEAR * precision_; ++c) after_[c].cusps = wraps_[c].cusps;
     wraps_ = after_;
     add(correction, wraps_);
     for (size_t j = 0; j < next.size(); ++j) others[j] = next[j] + correction[given_.size() + j];

@@ -66,6 +66,7 @@ class FrictionRounds {
     const std::vector<std::optional<Curve>> old_;
     const std::vector<double> at_, translation_;
     const double precision_;
+    std::vector<char> left_;  // by channel, whether its old profile was found beyond the cone in any round
     std::vector<std::vector<double>> joints_;
     std::vector<Wrap> wraps_, after_;      // of this round, and in its shape
     std::vector<double> own_, given_;      // both as numbers

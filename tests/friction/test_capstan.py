@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tactr
-from tactr import Helix, Robot, Straight, Tendon, Tube
+from tactr import Helix, Polynomial, Robot, Straight, Tendon, Tube
 from tactr.robot.friction import FrictionLike
 
 from .robots import STIFF, bending
@@ -81,6 +81,20 @@ def test_a_helix_round_a_straight_tube():
     turn = rate * radius / math.hypot(1.0, rate * radius) * rate * 0.2
     found = drive(robot, {"tension": [[3.0]]}).state.tension("wound", [0.2])
     assert found == pytest.approx(3.0 * math.exp(-MU * turn), rel=1e-8)
+
+
+def test_a_tendon_that_turns_one_way_and_then_the_other():
+    """y = y0 + c (sigma - inflection)^3 makes the angle atan(3 c (sigma - inflection)^2) with the axis: how
+    much it turns has a cusp where the angle is 0."""
+    inflection, c = 0.0713, 0.2
+    cubic = (1e-3 - c * inflection**3, 3.0 * c * inflection**2, -3.0 * c * inflection, c)
+    tube = Tube("tube", length=0.2, section=tactr.Annulus(2e-3, 1.6e-3), material=STIFF)
+    robot = Robot([tube], [Tendon("bent", "tube", Polynomial(x=(1e-3,), y=cubic), friction=MU)])
+    sigma = np.linspace(0.0, 0.2, 41)
+    angle = np.arctan(3.0 * c * (sigma - inflection) ** 2)
+    turned = angle[0] + np.where(sigma < inflection, -angle, angle)
+    found = drive(robot, {"tension": [[3.0]]}).state.tension("bent", sigma)
+    assert found == pytest.approx(3.0 * np.exp(-MU * turned), rel=1e-10)
 
 
 def test_behind_the_guide_a_straight_tendon_does_not_rub():

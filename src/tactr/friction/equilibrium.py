@@ -29,7 +29,9 @@ from tactr.statics.pulls import Pulled, Pulls, is_stable
 from tactr.statics.solve import Prepared
 from tactr.statics.stability import is_stable_at_tensions, stability_of
 
-MOST_ROUNDS = 30
+MOST_ROUNDS = 45
+MOST_CHANGE = 0.3  # of a tension, from one round to the next
+LOW = 0.1  # of the largest tension: those below may change as if they were so large
 AIM_SHARE = 0.1  # of what may be missing in a displacement
 
 
@@ -220,9 +222,19 @@ class _Rounds:
             if rounds.missed <= self._owner._prepared.residual_tolerance and step is None:
                 found = rounds.settled(core, solution)
                 return Settled(found, pulled, self._tubes, self._held)
-            tension = self._tension if step is None else step
-            self._tension = rounds.mix(self._tension / scale, tension / scale) * scale
+            tension = self._tension if step is None else self._nearer(step)
+            self._tension = self._nearer(rounds.mix(self._tension / scale, tension / scale) * scale)
         return None
+
+    def _nearer(self, tension: np.ndarray) -> np.ndarray:
+        """As far on the way to tensions as none changes by too much. After a reversal only what lies before a
+        front gives way: lengths hardly answer tensions, and Newton's step may lead anywhere."""
+        most = MOST_CHANGE * np.maximum(self._tension, LOW * self._tension.max(initial=0.0))
+        change = tension - self._tension
+        too_far = np.abs(change) > most
+        if not self._stay or self._pulls is None or not too_far.any() or not most.any():
+            return tension
+        return self._tension + change * float((most[too_far] / np.abs(change[too_far])).min())
 
     def _shape(
         self, core: _core.PreparedRobot, guess: _core.Solution
