@@ -23,6 +23,39 @@ struct FrictionProfile {
     std::vector<char> driven;
 };
 
+/// Stuck pieces side by side as one where one polynomial follows them to most_off: fronts that have passed by leave edges.
+inline FrictionProfile thinned(const FrictionProfile& profile, double most_off) {
+    const Curve& log = profile.log;
+    const size_t count = profile.slides.size();
+    FrictionProfile out;
+    out.log.edges.push_back(log.edges.front());
+    for (size_t k = 0; k < count; ++k) {
+        const bool may = k > 0 && profile.slides[k] == 0 && out.slides.back() == 0 && profile.driven[k] == out.driven.back();
+        PointValues c = log.coefficients[k];
+        bool one = false;
+        if (may) {
+            const double start = out.log.edges[out.log.edges.size() - 2], end = log.edges[k + 1];
+            c = ChebyshevRules::times(ChebyshevRules::get().fit, log.at(points_between(start, end)));
+            const Curve merged{{start, end}, {c}};
+            one = true;
+            for (size_t i = k + 1; i-- > 0 && log.edges[i] >= start && one;) {
+                const PointValues at = points_between(log.edges[i], log.edges[i + 1]), y = log.on(static_cast<int>(i), at), z = merged.on(0, at);
+                for (int p = 0; p < CURVE_POINTS; ++p) one = one && std::fabs(y[p] - z[p]) <= most_off;
+            }
+        }
+        if (one) {
+            out.log.edges.back() = log.edges[k + 1];
+            out.log.coefficients.back() = c;
+            continue;
+        }
+        out.log.edges.push_back(log.edges[k + 1]);
+        out.log.coefficients.push_back(log.coefficients[k]);
+        out.slides.push_back(profile.slides[k]);
+        out.driven.push_back(profile.driven[k]);
+    }
+    return out;
+}
+
 constexpr double NO_TENSION = -1e4;  // as a log tension: nothing comes down to it
 
 /// From the base to the end, cell by cell between edges of the old profile and of the wrap.

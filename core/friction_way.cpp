@@ -9,6 +9,9 @@ namespace tactr {
 
 namespace {
 
+constexpr int LAST_RESORTS = 4;   // where even a shortest step is not found: from another place it may be
+constexpr double SHORTER = 0.6;
+
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0.0;
     for (size_t i = 0; i < a.size(); ++i) sum += (b[i] - a[i]) * (b[i] - a[i]);
@@ -48,12 +51,13 @@ bool FrictionWay::reach(const std::vector<double>& at, WayPoint& out) {
     const Here here{old_, found};
     const std::vector<double> before = found.front()->at;
     const double way = distance(before, at);
-    double done = 0.0, length = stride < way ? stride / way : 1.0, missed = 0.0;
+    double done = 0.0, length = stride < way ? stride / way : 1.0, missed = 0.0, shortest = cuts_.shortest;
+    int last_resorts = LAST_RESORTS;
     while (done < 1.0) {
-        const double parts = std::ceil((1.0 - done) / larger(length, cuts_.shortest) - cuts_.stretch);
+        const double parts = std::ceil((1.0 - done) / larger(length, shortest) - cuts_.stretch);
         const double to = parts <= 1.0 ? 1.0 : done + (1.0 - done) / parts;
         length = to - done;
-        const bool halves = length > (1.0 + 2.0 * cuts_.stretch) * cuts_.shortest;
+        const bool halves = length > (1.0 + 2.0 * cuts_.stretch) * shortest;
         FrictionSpent spent;
         if (step(towards(before, at, to), halves, missed, spent)) {
             add(spent, out.spent);
@@ -62,6 +66,8 @@ bool FrictionWay::reach(const std::vector<double>& at, WayPoint& out) {
             length *= smaller(4.0, of_step(missed));
         } else if (halves) {
             length *= std::clamp(of_step(missed), 0.1, 0.5);
+        } else if (last_resorts-- > 0) {
+            length = shortest *= SHORTER;
         } else {
             old_ = here.old;
             found = here.found;

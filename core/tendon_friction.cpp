@@ -14,6 +14,7 @@ namespace {
 
 constexpr int MOST_ROUNDS = 30, MOST_PAIRS = 3;
 constexpr int PATIENT = 6;    // rounds; then cusps stay, and what was left once is left for good: else they may come and go without end
+constexpr double APART = 1e-3;  // of a tendon: edges nearer to each other are not told apart then
 constexpr double NEAR = 100.0;  // of the precision, missed, for cusps to stay
 constexpr int RESTLESS = 12;  // rounds; then half of every step is taken: what comes and goes does so by less
 constexpr int STRAYED = 15;    // rounds with tensions to be found; then without what earlier rounds taught, with other fronts
@@ -21,6 +22,7 @@ constexpr double LOOK_BELOW = 0.2;    // of the limit, missed: from here on it i
 constexpr double LITTLE = 10.0;        // of the precision, missed: the free end is where the last march said, but for what it forgives
 constexpr double SECTIONS_SHARE = 1e-3, ROUGHEST = 1e-6;  // tolerance of sections: of what was missed, and at most
 constexpr double LAST_ROUNDS = 100.0;                    // of the precision, missed: what follows may be the last
+constexpr double THIN = 0.1;           // of the precision, by which stuck pieces may be off when they are made one
 constexpr double NEGLIGIBLE = 1e-13;  // of a profile: coefficients left away
 
 /// Tension over that at the base, as polynomials.
@@ -68,7 +70,7 @@ void add_rises(const std::vector<double>& joints, const double* numbers, Curve& 
 FrictionRounds::FrictionRounds(const RobotTables<double>& plain, const std::vector<FrictionChannel>& channels,
                                std::vector<std::optional<Curve>> old, std::vector<double> at, const std::vector<double>& translation, double precision)
     : robot(plain), profiles(channels.size()), plain_(plain), channels_(channels), old_(std::move(old)), at_(std::move(at)),
-      translation_(translation), precision_(precision), left_(channels.size(), 0) {
+      translation_(translation), precision_(precision), left_(channels.size(), 0), last_edges_(channels.size()) {
     const Layout<double> layout = cut_into_sections(plain.view(), translation.data());
     std::vector<double> ends{layout.sections.front().proximal};
     for (const auto& section : layout.sections) ends.push_back(section.distal);
@@ -108,6 +110,7 @@ void FrictionRounds::profile(const std::vector<double>& tension) {
     robot.profiles.clear();
     for (size_t c = 0; c < channels_.size(); ++c) {
         const double pull = tension[channels_[c].tendon];
+        last_edges_[c] = profiles[c] ? profiles[c]->log.edges : std::vector<double>{};
         profiles[c].reset();
         if (!(pull > 0.0)) continue;
         const Curve none = Curve::constant(NO_TENSION, channels_[c].end);
@@ -188,6 +191,24 @@ void FrictionRounds::mix(std::vector<double>& others, const std::vector<double>&
     for (size_t j = 0; j < next.size(); ++j) others[j] = next[j] + correction[given_.size() + j];
     last_missed_ = std::move(gap);
     last_given_ = std::move(given);
+    if (rounds % PATIENT == 0) cut_alike();
+}
+
+/// Profiles of the last two rounds, and the wraps that go with them, are cut at the edges of both from now on: what polynomials
+/// cut in other ways make of the same wrap differs, and where edges come and go that never settles.
+void FrictionRounds::cut_alike() {
+    for (size_t c = 0; c < channels_.size(); ++c) {
+        if (channels_[c].over_disks || !profiles[c]) continue;
+        std::vector<double>& joints = joints_[c];
+        const double apart = APART * channels_[c].end;
+        for (const auto* edges : {&last_edges_[c], &profiles[c]->log.edges})
+            for (double edge : *edges) {
+                const auto beyond = std::upper_bound(joints.begin(), joints.end(), edge);
+                if (beyond == joints.begin() || beyond == joints.end()) continue;
+                if (edge - *(beyond - 1) > apart && *beyond - edge > apart) joints.insert(beyond, edge);
+            }
+    }
+    last_missed_.clear();
 }
 
 void FrictionRounds::mix_pulls(std::vector<double>& tension, const std::vector<double>& next) {
@@ -293,6 +314,8 @@ void FrictionRounds::settle(RobotTables<double>&& shaped, Solution&& solution, F
     out.robot = std::move(shaped);
     out.solution = std::move(solution);
     out.profiles = std::move(profiles);
+    for (auto& profile : out.profiles)
+        if (profile) profile = thinned(*profile, THIN * precision_);
     out.wraps = std::move(after_);
     out.missed = missed;
     out.first_missed = first_missed_;

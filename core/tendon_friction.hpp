@@ -67,7 +67,7 @@ class FrictionRounds {
     const std::vector<double> at_, translation_;
     const double precision_;
     std::vector<char> left_;  // by channel, whether its old profile was found beyond the cone in any round
-    std::vector<std::vector<double>> joints_;
+    std::vector<std::vector<double>> joints_, last_edges_;  // last_edges_: of the profiles of the round before
     std::vector<Wrap> wraps_, after_;      // of this round, and in its shape
     std::vector<double> own_, given_;      // both as numbers
     std::optional<FreeEnd<double>> ahead_;  // where the free end goes on to
@@ -90,6 +90,7 @@ class FrictionRounds {
 
     bool read(const RobotTables<double>& shaped, const Solution& solution, std::vector<Wrap>& wraps) const;
     bool compare();
+    void cut_alike();
     void numbers_of(const std::vector<Wrap>& wraps, std::vector<double>& out) const;
     void add(const std::vector<double>& numbers, std::vector<Wrap>& wraps) const;
 };
