@@ -33,7 +33,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--friction", type=float, nargs="*", default=[0.02, 0.05, 0.1, 0.2], help="coefficients")
+    parser.add_argument(
+        "--friction", type=float, nargs="*", default=[0.02, 0.05, 0.1, 0.2], help="coefficients"
+    )
     parser.add_argument(
         "--play", type=float, nargs="*", default=[0.03, 0.04, 0.05, 0.06, 0.08, 0.1], help="in mm"
     )

@@ -39,9 +39,10 @@ Channels channels_of(const nb::list& rows) {
         const nb::tuple row = nb::cast<nb::tuple>(item);
         tactr::FrictionChannel channel{nb::cast<int>(row[0]), nb::cast<int>(row[1]), nb::cast<double>(row[2]),
                                        nb::cast<std::vector<std::pair<double, double>>>(row[3]), !row[4].is_none(), {},
-                                       nb::cast<std::vector<double>>(row[5])};
+                                       nb::cast<std::vector<double>>(row[5]), {}};
         if (channel.over_disks) channel.contacts = nb::cast<std::vector<double>>(row[4]);
         if (channel.pieces.empty()) throw std::invalid_argument("a channel without friction");
+        channel.watched = tactr::watched_places(channel);
         if (!out.list.empty() && channel.tendon <= out.list.back().tendon) throw std::invalid_argument("channels out of order");
         out.list.push_back(std::move(channel));
     }
@@ -248,14 +249,15 @@ void bind_friction(nb::module_& m) {
         .def_ro("missed", &FrictionRounds::missed)
         .def_ro("rounds", &FrictionRounds::rounds);
 
-    m.def("friction_heat", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after) {
+    m.def("friction_spent", [](const Channels& channels, const FrictionSettled& before, FrictionSettled& after) {
         std::vector<double> heat, creep;
-        friction_heat(channels.list, before, after, heat, creep);
+        friction_heat(channels.list, before, after, heat);
+        friction_creep(channels.list, before, after, creep);
         return nb::make_tuple(heat, creep);
-    }, "channels"_a, "before"_a, "after"_a, "By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m.");
+    }, "channels"_a, "before"_a, "after"_a, "By channel: heat of a step, J, and creep after it, m.");
     m.def("tendon_friction_step", &step, "plain"_a, "channels"_a, "old"_a, "near"_a, "past"_a, "at"_a, "tension"_a, "rotation"_a,
           "translation"_a, "tolerance"_a, "residual_tolerance"_a, "limits"_a.none(),
-          "The next equilibrium, None: not found or beyond limits, of history missed and turn; what was missed; heat and creep.");
+          "The next equilibrium, None: not found or beyond limits, of history missed and turn; what was missed; heat of the step, and creep after it.");
     m.def("tendon_friction_way", &way, "plain"_a, "channels"_a, "old"_a, "found"_a, "stride"_a, "points"_a, "tolerance"_a,
           "residual_tolerance"_a, "cuts"_a,
           "Points that were reached: equilibrium, steps, heat and creep, seconds; what was found last, the latest first; stride.");

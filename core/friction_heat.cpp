@@ -34,7 +34,22 @@ struct Falls {
     }
 };
 
-double rubbing(double before, double after) { return before * after > 0.0 ? 0.5 * (before + after) : after; }
+/// By how much the path beyond a place gets shorter in a step: where the tendon begins to slide in it, and elsewhere.
+struct Slip {
+    double begun = 0.0, even = 0.0;
+
+    double& share(bool begins) { return begins ? begun : even; }
+};
+
+/// At a place where the tension falls so.
+double loss(double before, double after, const Slip& slip) {
+    const double mean = 0.5 * (before + after);
+    return (before * after > 0.0 ? mean : after) * slip.begun + mean * slip.even;
+}
+
+int slides_at(const std::optional<FrictionProfile>& profile, double sigma) {
+    return profile ? profile->slides[profile->log.piece(sigma)] : 0;
+}
 
 Curve rate_curve(const Wrap& wrap) {
     Curve out{wrap.rise.edges, {}};
@@ -42,13 +57,19 @@ Curve rate_curve(const Wrap& wrap) {
     return out;
 }
 
+/// The rate of a wrap, and as a curve, at the points between two places of one of its panels.
+PointValues rates_between(const Wrap& wrap, const Curve& curve, double start, double end) {
+    const int k = curve.piece(0.5 * (start + end));
+    if (start == curve.edges[k] && end == curve.edges[k + 1]) return wrap.rate[k];
+    return curve.on(k, points_between(start, end));
+}
+
 }  // namespace
 
 void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionSettled& before, const FrictionSettled& after,
-                   std::vector<double>& heat, std::vector<double>& creep) {
+                   std::vector<double>& heat) {
     const ChebyshevRules& rules = ChebyshevRules::get();
     heat.assign(channels.size(), 0.0);
-    creep.assign(channels.size(), 0.0);
     for (size_t c = 0; c < channels.size(); ++c) {
         std::vector<double> all{0.0, channels[c].end};
         for (const FrictionSettled* settled : {&before, &after}) {
@@ -58,25 +79,26 @@ void friction_heat(const std::vector<FrictionChannel>& channels, const FrictionS
         const std::vector<double> edges = merged(all);
         const Curve rates[2] = {rate_curve(before.wraps[c]), rate_curve(after.wraps[c])};
         const Falls falls[2] = {{before.profiles[c], edges}, {after.profiles[c], edges}};
-        double beyond = 0.0;  // how much shorter the path is from the panel's distal end on
+        Slip beyond;  // from the panel's distal end on, then from its proximal end
         for (size_t k = edges.size() - 1; k-- > 0;) {
             const double half = 0.5 * (edges[k + 1] - edges[k]), middle = edges[k] + half;
-            const PointValues places = points_between(edges[k], edges[k + 1]);
-            const int pieces[2] = {rates[0].piece(middle), rates[1].piece(middle)};
-            PointValues shorter = rates[0].on(pieces[0], places);
-            const PointValues now = rates[1].on(pieces[1], places);
+            const int way = slides_at(after.profiles[c], middle);
+            const bool begins = way != 0 && way != slides_at(before.profiles[c], middle);
+            PointValues shorter = rates_between(before.wraps[c], rates[0], edges[k], edges[k + 1]);
+            const PointValues now = rates_between(after.wraps[c], rates[1], edges[k], edges[k + 1]);
             double whole = 0.0, along = 0.0;
             for (int p = 0; p < CURVE_POINTS; ++p) {
                 shorter[p] -= now[p];
                 whole += rules.weight[p] * shorter[p] * half;
             }
-            beyond += whole;
+            beyond.share(begins) += whole;
             const PointValues inside = ChebyshevRules::times(rules.upto, shorter);
-            for (int p = 0; p < CURVE_POINTS; ++p)
-                along += rules.weight[p] * rubbing(falls[0].along[k][p], falls[1].along[k][p]) * (beyond - inside[p] * half);
-            heat[c] += along * half + rubbing(falls[0].at_edges[k], falls[1].at_edges[k]) * beyond;
-            const auto& profile = after.profiles[c];
-            if (profile && profile->slides[profile->log.piece(edges[k] + 1e-10)] == 0) creep[c] = larger(creep[c], std::fabs(beyond));
+            for (int p = 0; p < CURVE_POINTS; ++p) {
+                Slip slip = beyond;
+                slip.share(begins) -= inside[p] * half;
+                along += rules.weight[p] * loss(falls[0].along[k][p], falls[1].along[k][p], slip);
+            }
+            heat[c] += along * half + loss(falls[0].at_edges[k], falls[1].at_edges[k], beyond);
         }
     }
 }

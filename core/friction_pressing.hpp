@@ -28,7 +28,7 @@ class PressingReader : public SectionEnds {
         const Section<double>& section = layout_.sections[k];
         if (section.guided) return;
         if (s == section.distal) read(march, before, k, s, 2 * k + 1, distal[k], distal_contact[k]);
-        if (std::fabs(s + h - section.proximal) > 1e-9 * (section.distal - section.proximal)) return;
+        if (!ends_section(section, s + h)) return;
         read(march, march.z, k, section.proximal, 2 * k, proximal[k], proximal_contact[k]);
     }
 

@@ -47,7 +47,8 @@ bool friction_step(FrictionRounds& rounds, const std::vector<FrictionChannel>& c
         rounds.history_missed = 0.0;
         return false;
     }
-    friction_heat(channels, near, out, spent.heat, spent.creep);
+    friction_heat(channels, near, out, spent.heat);
+    friction_creep(channels, near, out, spent.creep);
     return true;
 }
 

@@ -12,7 +12,7 @@ struct StepLimits {
     double turn;    // of the free end, rad
 };
 
-/// By channel.
+/// By channel: heat, J, and creep, m, as friction_heat and friction_creep give them.
 struct FrictionSpent {
     std::vector<double> heat, creep;
 };

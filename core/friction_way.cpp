@@ -68,7 +68,7 @@ bool FrictionWay::reach(const std::vector<double>& at, WayPoint& out) {
             return false;
         }
     }
-    stride = length * way;
+    if (way > 0.0) stride = length * way;
     out.settled = found.front();
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return true;

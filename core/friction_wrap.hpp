@@ -16,13 +16,13 @@
 namespace tactr {
 
 /// Where one tendon rubs. pieces: (start, coefficient) of friction; contacts: sigma of its disks; cuts: places where its
-/// routing has wound by so much that directions are fitted anew.
+/// routing has wound by so much that directions are fitted anew; watched: places whose slip is watched.
 struct FrictionChannel {
     int tendon, tube;
     double end;
     std::vector<std::pair<double, double>> pieces;
     bool over_disks;
-    std::vector<double> contacts, cuts;
+    std::vector<double> contacts, cuts, watched;
 
     /// At sigma; where it changes, the distal one.
     double coefficient(double sigma) const {

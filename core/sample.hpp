@@ -45,7 +45,7 @@ class Sampler {
         const Section<double>& section = layout_.sections[k];
         const bool first = k == 0 || (!section.guided && layout_.sections[k - 1].guided);
         const double end = s + h;
-        bool last_step = std::fabs(end - section.proximal) < 1e-9 * (section.distal - section.proximal);
+        const bool last_step = ends_section(section, end);
         if (next_ < 0 || (stations_[next_] <= end && !(first && last_step))) return;
         if (!dense_.prepare(march, section, before, s, h)) return;
         while (next_ >= 0 && (stations_[next_] > end || (first && last_step && stations_[next_] >= end - 1e-12))) {

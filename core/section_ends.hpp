@@ -88,7 +88,7 @@ class EndsReader : public SectionEnds {
     template <class M>
     void operator()(M& march, int k, const double*, double s, double h) {
         const Section<double>& section = layout_.sections[k];
-        if (std::fabs(s + h - section.proximal) > 1e-9 * (section.distal - section.proximal)) return;
+        if (!ends_section(section, s + h)) return;
         Strains e = march.solver.strains;
         if (march.solver.solve(section, section.proximal, march.z, march.packing, e))
             read_end(march, section, march.z, proximal[k]);

@@ -39,6 +39,11 @@ struct Section {
     Range hosted, point_loads, distributed_loads;
 };
 
+/// Whether the step of a march that ends at s is the section's last, but for rounding, which counts where it is short.
+inline bool ends_section(const Section<double>& section, double s) {
+    return s - section.proximal <= 1e-9 * (section.distal - section.proximal) + 1e-15;
+}
+
 template <class P>
 struct Layout {
     std::vector<Section<P>> sections;  // from base to tip

@@ -28,8 +28,7 @@ class TendonChords {
     template <class M>
     void operator()(M& march, int k, const double* before, double s, double h) {
         const Section<double>& section = layout_.sections[k];
-        const double speck = 1e-9 * (section.distal - section.proximal);
-        const bool first = s > section.distal - speck, last = s + h < section.proximal + speck;
+        const bool first = s >= section.distal, last = ends_section(section, s + h);
         if (!first && !last) return;
         for (int n = section.hosted.begin; n < section.hosted.end; ++n) {
             const Hosted& hosted = layout_.hosted[n];

@@ -229,10 +229,11 @@ def tendon_friction_way(
     what was found before, the latest first. cuts: limits of history missed and of turn, rad, of a step, the
     shortest of the way between two points, and how careful and stretched steps are."""
 
-def friction_heat(
+def friction_spent(
     channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled
 ) -> tuple[list[float], list[float]]:
-    """By channel: heat of a step, J, and the largest slip where a tendon counts as stuck, m."""
+    """By channel: heat of a step, J, and creep after it, m: the largest slip at a place since the tendon
+    last slid there, of which after remembers where that was."""
 
 def friction_history_missed(
     channels: FrictionChannels, before: FrictionSettled, after: FrictionSettled, enough: float

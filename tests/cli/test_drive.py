@@ -106,6 +106,21 @@ def test_a_point_that_is_not_reached(run, file, path, tmp_path):
     data.close()
 
 
+@pytest.mark.parametrize("cuts", [1, 100])
+def test_a_tendon_that_is_dragged_is_told(run, tmp_path, path, cuts):
+    """However finely the path is cut."""
+    opposite = [
+        Tendon(name, "tube", Straight(0, y), friction=0.15) for name, y in (("up", 3e-3), ("down", -3e-3))
+    ]
+    tactr.save(robot().replace(tendons=tuple(opposite)), tmp_path / "two.yaml")
+    rows = "".join(f"{up}, 1\n" for up in np.linspace(1.0, 4.0, cuts + 1))
+    code, out, _ = run("drive", str(tmp_path / "two.yaml"), path("tension.up [N], tension.down [N]\n" + rows))
+    (warning,) = [line for line in out.splitlines() if line.startswith("warning")]
+    assert code == 0 and warning.startswith(
+        "warning: tendon down is dragged through its channel by up to 1.6 mm"
+    )
+
+
 def test_files_that_cannot_be(run, file, path, tmp_path):
     good = path(table(PULLS[:1]))
     (tmp_path / "state.json").write_text('{"a": 1}')

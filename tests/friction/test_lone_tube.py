@@ -9,6 +9,7 @@ from tactr import Annulus, Helix, PointLoad, Robot, Straight, Tendon, Tube
 from .robots import SOFT
 
 OFF_AXIS, BACK, HELIX = Straight(1.2e-3, 0.5e-3), Straight(-0.3e-3, 1.3e-3), Helix(1.2e-3, 40.0)
+SECTION = Annulus(2e-3, 1.6e-3)
 TENDONS = {
     "channels": [
         Tendon("a", "tube", OFF_AXIS, friction=[(0.0, 0.1), (0.06, 0.3)]),
@@ -31,9 +32,7 @@ TENDONS = {
 
 def lone_tube(tendons, precurvature, loads=()):
     section = Annulus(2e-3, 1.6e-3)
-    tube = Tube(
-        "tube", length=0.2, section=section, material=SOFT, rotation=0.7, precurvature=precurvature
-    )
+    tube = Tube("tube", length=0.2, section=SECTION, material=SOFT, rotation=0.7, precurvature=precurvature)
     return Robot([tube], tendons, loads)
 
 
@@ -43,9 +42,8 @@ def test_it_leads_where_the_march_leads(name, precurvature):
     phase = np.linspace(0.0, 3 * np.pi, 16)
     path = {"tension": np.stack([4.0 + 3.0 * np.sin(phase), 4.0 + 2.0 * np.sin(phase + 1.0)], axis=1)}
     load = PointLoad("tube", axes="body")  # nothing, but it asks for the march
-    lone, marched = (
-        tactr.drive(lone_tube(TENDONS[name], precurvature, loads), path, tolerance=1e-8) for loads in ([], [load])
-    )
+    robots = (lone_tube(TENDONS[name], precurvature, loads) for loads in ([], [load]))
+    lone, marched = (tactr.drive(robot, path, tolerance=1e-8) for robot in robots)
     assert lone.converged
     assert marched.converged
     assert lone.tips == pytest.approx(marched.tips, abs=2e-8)
@@ -55,10 +53,10 @@ def test_it_leads_where_the_march_leads(name, precurvature):
 
 
 def test_one_long_bend_between_disks_is_an_arc():
-    """EI kappa = T d and stretch 1 - T / EA in both spans, exactly; their turn apart makes the tension fall."""
+    """EI kappa = T d and stretch 1 - T / EA in both spans, exactly; their turn makes the tension fall."""
     robot = lone_tube([Tendon("a", "tube", Straight(0.0, 1.2e-3), friction=0.2, contacts=[0.19])], (0, 0, 0))
     driven = tactr.drive(robot, {"tension": [[5.0], [20.0]]})
-    stiffness, shape = robot.tubes[0].section.stiffness(SOFT), driven[1]
+    stiffness, shape = SECTION.stiffness(SOFT), driven[1]
     EI, EA = stiffness.EI_x, stiffness.EA
     position, angle = np.zeros(2), 0.0  # in the plane of the bend
     for tension, length in zip(driven.state.tension("a", [0.1, 0.195]), (0.19, 0.01), strict=True):

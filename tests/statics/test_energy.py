@@ -7,9 +7,11 @@ import pytest
 
 import tactr
 from tactr import (
+    Annulus,
     DistributedLoad,
     Gravity,
     Helix,
+    Material,
     NotConverged,
     PointLoad,
     Robot,
@@ -20,6 +22,7 @@ from tactr import (
     Tube,
 )
 from tactr.statics import Shape
+from tactr.statics.solve import Prepared
 
 EI, EA, GJ = 5e-3, 2e4, 4e-3
 LENGTH, BEHIND = 0.2, 0.05
@@ -183,3 +186,25 @@ def test_one_tube_has_no_contact_but_a_guide() -> None:
     assert shape.contacts == ()
     np.testing.assert_allclose(shape.guide_reaction.force, (-0.1, 0.0, 0.0), atol=1e-9)
     np.testing.assert_allclose(shape.guide_reaction.moment[1], -0.1 * shape.tip_position[2], rtol=1e-6)
+
+
+@pytest.mark.parametrize("gap", [3e-9, 2e-9, 1e-9, 5e-10, 3e-10, 1e-10])
+def test_sections_of_nanometres_have_their_forces(gap):
+    """In steps taken over from where they were longer, whose ends miss the section's by rounding."""
+    assert forces_of_a_gap(gap) == pytest.approx(forces_of_a_gap(1e-7), rel=1e-5)
+
+
+def forces_of_a_gap(gap: float) -> np.ndarray:
+    """Of two tubes that bend from places on that lie so far apart; between them numbers get coarser."""
+    place, straight = 0.0625 - 0.6 * gap, (0.0, (0.0, 0.0, 0.0))
+    metal, bent = Material(E=60e9, nu=0.3), ((place, (3.0, 0.0, 0.0)), (place + gap + 0.05, (0.0, 5.0, 0.0)))
+    outer, inner = (
+        Tube(
+            name, length=length, section=Annulus(d, d - 0.4e-3), material=metal, precurvature=(straight, rest)
+        )
+        for name, length, d, rest in zip(("outer", "inner"), (0.13, 0.2), (2e-3, 1.2e-3), bent, strict=True)
+    )
+    pull = Tendon("pull", "inner", Straight(0, 3e-3), host="own", tension=4.0)
+    prepared = Prepared(Robot([outer, inner], [pull]), tolerance=1e-13)
+    far = prepared.solve(rotation=[0.0, 1.0], translation=[0.0, -0.002])
+    return prepared.solve(rotation=[0.0, 1.0], translation=[0.0, -0.05], guess=far).actuator_forces.force

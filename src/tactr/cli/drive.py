@@ -102,7 +102,7 @@ def _summary(driven: Driven) -> str:
     ]
     for tendon, creep in zip(robot.tendons, driven.creep.max(axis=0), strict=True):
         if creep > CREPT:
-            what = f"is dragged through its channel by {1e3 * creep:.2g} mm while its own tension stays"
+            what = f"is dragged through its channel by up to {1e3 * creep:.2g} mm while its own tension stays"
             lines.append(f"warning: tendon {tendon.name} {what}: the loop is not to be trusted there")
     unstable = sum(not driven.stable(k) for k in range(len(driven)))
     if unstable:

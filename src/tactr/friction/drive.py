@@ -52,10 +52,10 @@ def drive(
     its pretension all along and every play in its middle at zero, loaded in one direction to the first point,
     where tubes meet without friction torques.
     What friction and backlash leave behind comes back in the result's states: nothing is hidden in the
-    robot. tolerance, stations: as in ``solve``. Every way between two points is cut into steps in which the
-    free end turns by less than 0.3 rad. progress: called with points done and their number. A result always
-    comes back: look at ``converged``. Model and assumptions: docs/friction.md, docs/tube_friction.md. Raises
-    RobotError.
+    robot. ``creep`` alone starts at zero again where a drive goes on from a state. tolerance, stations: as in
+    ``solve``. Every way between two points is cut into steps in which the free end turns by less than 0.3
+    rad. progress: called with points done and their number. A result always comes back: look at
+    ``converged``. Model and assumptions: docs/friction.md, docs/tube_friction.md. Raises RobotError.
     """
     points = path_points(robot, path)
     _check(points.first)
@@ -219,7 +219,8 @@ class _Driver:
             if snaps:
                 self._past = ()
             done, count, step = to, count + 1, step * min(4.0, _of_step(missed))
-        self._stride = step * way
+        if way > 0.0:
+            self._stride = step * way
         return state, count
 
     def _taken(self, settled: Settled, given: Actuators, state: DriveState) -> DriveState:

@@ -25,9 +25,10 @@ class Driven:
     shapes, states: k, made when they are looked at; failed: k texts, empty where the shape converged;
     steps: k, into how many the way to each point was cut; heat (k, tendons): J that friction took from
     one point to the next, from its force and the slip along each tendon; creep (k, tendons): m, how far
-    at most a tendon slipped where its tension was left as it was (see docs/friction.md); tube_heat (k,
-    tubes): J that friction of every tube in the next outer body took, from its torque and the slip; held
-    (k,): in how many directions of falling energy tubes that do not slide on each other hold the robot.
+    at most, on the way to each point, a tendon had been dragged from where it last slid itself, at any
+    place, counted from the first point of the drive (see docs/friction.md); tube_heat (k, tubes): J that
+    friction of every tube in the next outer body took, from its torque and the slip; held (k,): in how many
+    directions of falling energy tubes that do not slide on each other hold the robot.
     Iterates over its shapes.
     """
 

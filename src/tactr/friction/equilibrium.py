@@ -46,8 +46,8 @@ class Settled:
     """One equilibrium with friction.
 
     found: the kernel's, which holds the robot with its profiles and the torques between tubes; pulled: of the
-    tendons pulled by displacements, if there are any; tubes: where they rub, None without; spent: heat, J,
-    and creep, m, of the step that led here, by channel, where the kernel made it.
+    tendons pulled by displacements, if there are any; tubes: where they rub, None without; spent: heat, J, of
+    the step that led here, and creep, m, by channel, where the kernel made it.
     """
 
     found: _core.FrictionSettled
@@ -209,8 +209,8 @@ class Equilibrium:
         return turn <= most and (_stable(b) or not _stable(a))
 
     def spent(self, near: Settled, settled: Settled) -> tuple[list[float], list[float]]:
-        """Heat and creep of the step from one to the next, by channel."""
-        return settled.spent or _core.friction_heat(self.rows, near.found, settled.found)
+        """Heat of the step from one to the next, and creep after it, by channel."""
+        return settled.spent or _core.friction_spent(self.rows, near.found, settled.found)
 
     def profiles(self, found: _core.FrictionSettled) -> FoundProfiles:
         """What an equilibrium leaves behind."""

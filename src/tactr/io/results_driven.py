@@ -100,7 +100,7 @@ def _add_history(variables: dict[str, Any], driven: Driven) -> None:
         return
     text = "taken by friction of the tendon since the point before"
     variables["tendon_heat"] = variable("point tendon", driven.heat, "J", text)
-    text = "slipped at most where its tension was left as it was (docs/friction.md)"
+    text = "dragged at most, at a place, from where it last slid itself (docs/friction.md)"
     variables["tendon_creep"] = variable("point tendon", driven.creep, "m", text)
     variables["motor_tension"] = variable("point tendon", driven.tensions, "N", "tension at the motor")
     variables["tendon_tension"] = variable(
