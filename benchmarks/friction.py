@@ -1,4 +1,4 @@
-"""What friction of tendons costs: a step of ``tactr.drive`` against a plain warm solve, on one core.
+"""What friction costs: a step of ``tactr.drive`` with it against a plain warm solve without, on one core.
 
     python benchmarks/friction.py [--points 60] [--repeats 5]
 
@@ -50,22 +50,35 @@ def microseconds(run: Callable[[], object], points: int) -> float:
     return (time.process_time() - start) / points * 1e6
 
 
-def plain_run(prepared: Prepared, tension: np.ndarray, shape: Shape) -> None:
+def turned(name: str, line: np.ndarray) -> tuple[Robot, Robot, np.ndarray]:
+    """A built-in robot whose tubes rub in each other and in the guide, the same without friction, and
+    rotations (points, tubes) that turn the innermost tube along a line, rad."""
+    plain = tactr.examples.load(name)
+    outer, *others = plain.tubes
+    rubbing = replace(outer, friction=0.1), *(replace(tube, friction=0.15) for tube in others)
+    rows = np.tile([tube.rotation for tube in plain.tubes], (len(line), 1))
+    rows[:, -1] += line
+    return plain.replace(tubes=rubbing), plain, rows
+
+
+def plain_run(prepared: Prepared, kind: str, rows: np.ndarray, shape: Shape) -> None:
     """Warm solves along the path, from the shape at its start."""
-    for row in tension:
-        shape = prepared.solve(tension=row, guess=shape)
+    for row in rows:
+        shape = prepared.solve(**{kind: row}, guess=shape)
 
 
-def compare(name: str, robot: Robot, plain: Robot, tension: np.ndarray, repeats: int) -> None:
-    """Prints one row."""
-    driven = tactr.drive(robot, {"tension": tension})
+def compare(
+    name: str, robot: Robot, plain: Robot, rows: np.ndarray, repeats: int, kind: str = "tension"
+) -> None:
+    """Prints one row. kind: of actuation, rows (points, actuators)."""
+    driven = tactr.drive(robot, {kind: rows})
     prepared = Prepared(plain)
-    start = prepared.solve(tension=tension[0])
-    count, steps = len(tension), sum(driven.steps)
+    start = prepared.solve(**{kind: rows[0]})
+    count, steps = len(rows), sum(driven.steps)
     times = []
     for _ in range(repeats):  # in turn: the speed of a machine changes while it is measured
-        drive = microseconds(lambda: tactr.drive(robot, {"tension": tension}), count)
-        solve = [microseconds(lambda: plain_run(prepared, tension, start), count) for _ in range(3)]
+        drive = microseconds(lambda: tactr.drive(robot, {kind: rows}), count)
+        solve = [microseconds(lambda: plain_run(prepared, kind, rows, start), count) for _ in range(3)]
         times.append((drive, float(np.median(solve))))
     drive, solve = np.transpose(times)
     state = "" if driven.converged else "  NOT CONVERGED"
@@ -77,7 +90,7 @@ def compare(name: str, robot: Robot, plain: Robot, tension: np.ndarray, repeats:
 
 def main() -> None:
     """Prints the table."""
-    parser = argparse.ArgumentParser(description="Cost of friction of tendons.")
+    parser = argparse.ArgumentParser(description="Cost of friction of tendons and between tubes.")
     parser.add_argument("--points", type=int, default=60)
     parser.add_argument("--repeats", type=int, default=5)
     options = parser.parse_args()
@@ -92,6 +105,11 @@ def main() -> None:
         compare(f"1 tube, 9 disks, {path}", disks, bending(), one_row, options.repeats)
         rubbing = with_friction(three, 0.15)
         compare(f"3 tubes, 3 tendons, {path}", rubbing, three, three_rows, options.repeats)
+    line = legs([0.0, 2.0, 0.5, 1.5, -0.5], options.points)
+    for name in ("two_tube_90", "three_tube_a"):
+        rubbing, plain, turns = turned(name, line)
+        count = len(plain.tubes)
+        compare(f"{count} tubes that rub, turned", rubbing, plain, turns, options.repeats, "rotation")
 
 
 if __name__ == "__main__":

@@ -199,6 +199,14 @@ void bind_friction(nb::module_& m) {
         .def("__init__", [](Channels* self, const nb::list& rows) { new (self) Channels(channels_of(rows)); }, "rows"_a);
 
     nb::class_<FrictionSettled>(m, "FrictionSettled", "One equilibrium with friction of tendons.")
+        .def("__init__",
+             [](FrictionSettled* self, const PreparedRobot& robot, const Solution& solution, std::vector<double> at) {
+                 new (self) FrictionSettled{};
+                 self->robot = robot;
+                 self->solution = solution;
+                 self->at = std::move(at);
+             },
+             "robot"_a, "solution"_a, "at"_a, "Without tendons that rub.")
         .def_prop_ro("robot", [](FrictionSettled& s) -> PreparedRobot& { return s.robot; }, nb::rv_policy::reference_internal)
         .def_prop_ro("solution", [](FrictionSettled& s) -> Solution& { return s.solution; }, nb::rv_policy::reference_internal)
         .def_prop_ro("profiles", &profiles_of)

@@ -342,16 +342,17 @@ nb::tuple stability(const PreparedRobot& robot, const tactr::Solution& solution,
 
 /// nodes: a row for each: inner, outer (-1: the guide), s, arm, lever, radius, slide, torque, twist, whether it is at an end.
 nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const Vector& rotation, const Vector& translation,
-                       double tolerance, double residual_tolerance, const Table& nodes, const tactr::Solution* guess, bool stay) {
-    check_columns(nodes, 10, "nodes");
+                       double tolerance, double residual_tolerance, const Table& nodes, const tactr::Solution* guess,
+                       const tactr::RubbingModel* model, bool stay) {
+    check_columns(nodes, 11, "nodes");
     std::vector<tactr::RubbingNode> list;
     std::vector<char> at_end;
     const auto is_tube = [&](double i) { return i >= 0.0 && i < static_cast<double>(robot.tubes.size()); };
     for (size_t k = 0; k < nodes.shape(0); ++k) {
         const double* row = &nodes(k, 0);
         if (!is_tube(row[0]) || !(row[1] == -1.0 || is_tube(row[1]))) throw std::invalid_argument("node on no tube");
-        list.push_back({static_cast<int>(row[0]), static_cast<int>(row[1]), row[2], row[3], row[4], row[5], row[6], row[7], row[8]});
-        at_end.push_back(row[9] != 0.0);
+        list.push_back({static_cast<int>(row[0]), static_cast<int>(row[1]), row[2], row[3], row[4], row[5], row[6], row[7], row[8], row[9]});
+        at_end.push_back(row[10] != 0.0);
     }
     const tactr::Solution empty = blank(robot, tension, rotation, translation);
     tactr::Settings settings = settings_of(tolerance, residual_tolerance);
@@ -359,7 +360,7 @@ nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const 
     auto found = std::make_unique<tactr::FrictionStep>();
     {
         nb::gil_scoped_release release;
-        tactr::friction_step(robot, list, at_end, settings, empty, guess, *found);
+        tactr::friction_step(robot, list, at_end, settings, empty, guess, model, *found);
     }
     nb::dict out;
     out["torque"] = vector_of(found->torque.data(), found->torque.size());
@@ -367,8 +368,15 @@ nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const 
     out["limit"] = vector_of(found->limit.data(), found->limit.size());
     out["pressing"] = vector_of(found->pressing.data(), found->pressing.size());
     out["slides"] = vector_of(found->slides.data(), found->slides.size());
+    out["heat"] = vector_of(found->heat.data(), found->heat.size());
     const Shape square{list.size(), found->compliance.size() / (list.empty() ? 1 : list.size())};
-    out["compliance"] = array_of(std::move(found->compliance), square);
+    if (found->falls > 0) {
+        out["compliance"] = array_of(std::move(found->compliance), square);
+        const std::vector<double> felt(found->felt.begin(), found->felt.end());
+        out["felt"] = vector_of(felt.data(), felt.size());
+    }
+    out["falls"] = found->falls;
+    out["model"] = nb::cast(std::move(found->model));
     out["iterations"] = found->iterations;
     out["missing"] = found->missing;
     out["settled"] = found->settled;
@@ -439,9 +447,11 @@ NB_MODULE(_core, m) {
     m.def("length_jacobian", &length_jacobian, "robot"_a, "solution"_a, "d(tendon lengths)/d(tensions).");
     m.def("joint_march", &joint_march, "robot"_a, "neighbour"_a, "step"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a,
           "One march from a moved free end: a solution to go on from, missed, d(missed, lengths)/d(free end, tensions); or None.");
+    nb::class_<tactr::RubbingModel>(m, "RubbingModel", "An equilibrium with friction between tubes, and how it answers.");
     m.def("friction_step", &friction_step, "robot"_a, "tension"_a, "rotation"_a, "translation"_a, "tolerance"_a,
-          "residual_tolerance"_a, "nodes"_a, "guess"_a = nb::none(), "stay"_a = false,
-          "One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the nodes.");
+          "residual_tolerance"_a, "nodes"_a, "guess"_a = nb::none(), "model"_a = nb::none(), "stay"_a = false,
+          "One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the nodes. model: of "
+          "the guess, which makes it fast.");
     m.def("sample", &sample, "robot"_a, "solution"_a, "stations"_a, "Shape of a converged solution at ascending s.");
     m.def("contacts", &contacts, "robot"_a, "solution"_a, "stations"_a, "What tubes exert on each other: along s, and at points.");
     m.def("energetics", &energetics, "robot"_a, "solution"_a, "Energies, and the torques and forces of the actuators.");

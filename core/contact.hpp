@@ -51,17 +51,21 @@ inline void load_in(const double v[3], bool body_axes, const double* quaternion,
 class ContactReader {
   public:
     ContactReader(const Robot& robot, const Solution& solution, const Samples& samples, const std::vector<double>& stations)
-        : robot_(robot), samples_(samples), stations_(stations),
-          layout_(cut_into_sections(robot, solution.translation.data())),
+        : ContactReader(robot, cut_into_sections(robot, solution.translation.data()), solution, samples, stations) {}
+
+    ContactReader(const Robot& robot, const Layout<double>& layout, const Solution& solution, const Samples& samples,
+                  const std::vector<double>& stations)
+        : robot_(robot), samples_(samples), stations_(stations), layout_(layout),
           actuation_{solution.tension.data(), solution.rotation.data(), solution.translation.data(), 1.0, 1.0},
           shooting_(robot, layout_), march_(robot, layout_, actuation_, {true, true, false}),
           tension_(solution.tension.begin(), solution.tension.end()),
           rotation_(solution.rotation.begin(), solution.rotation.end()),
           translation_(solution.translation.begin(), solution.translation.end()),
-          dual_layout_(cut_into_sections(robot, translation_.data())),
+          dual_layout_(at_rest<D>(layout_)),
           dual_actuation_{tension_.data(), rotation_.data(), translation_.data(), 1.0, 1.0},
           dual_(robot, dual_layout_, dual_actuation_) {
         shooting_.scale(march_);
+        march_.solver.precision = Precision::checked;
         dual_.moment_scale = shooting_.moment_scale;
         dual_.force_scale = shooting_.force_scale;
     }
@@ -73,12 +77,14 @@ class ContactReader {
         return true;
     }
 
-    /// From packed states in section k at s, as a march with its frame carries them, and the strains there; axes: R_b.
-    bool read_states(int k, double s, const double* z, Strains e, const double* axes, ContactRecord& out) {
+    /// From packed states in section k at s, as a march with sums and frame carries them; e: start and result of the strains
+    /// there; axes: R_b. end: what the tubes carry there, where wanted.
+    bool read_states(int k, double s, const double* z, Strains& e, const double* axes, ContactRecord& out, SectionEnd* end = nullptr) {
         const Section<double>& section = layout_.sections[k];
         march_.packing.set(section.active, section.active_count, false, march_.options);
         double rate[STATES];
         if (!march_.derivative(section, s, z, rate, e)) return false;
+        if (end) read_end(march_, section, z, *end);
         D seeded[STATES], place(s);
         place.d[0] = 1.0;
         for (int n = 0; n < march_.packing.count; ++n) {
@@ -121,7 +127,7 @@ class ContactReader {
         const Section<double>& section = layout_.sections[k];
         march_.packing.set(section.active, section.active_count, false, march_.options);
         double z[STATES];
-        const Strains e = strains_of(section, station);
+        Strains e = strains_of(section, station);
         resultants_at(section, s, station, e, z);
         return read_states(k, s, z, e, station.quaternion, out);
     }

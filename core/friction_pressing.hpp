@@ -12,39 +12,57 @@
 
 namespace tactr {
 
-class PressingReader : public EndsReader {
+/// Watches a march with the sums and the frame.
+class PressingReader : public SectionEnds {
   public:
+    using SkipsEven = void;  // behind the guide's exit
     std::vector<ContactRecord> distal_contact, proximal_contact;  // by section; axes of the march
     bool failed = false;
 
     PressingReader(const Robot& robot, const Layout<double>& layout, const Solution& solution)
-        : EndsReader(robot, layout), distal_contact(layout.sections.size()), proximal_contact(layout.sections.size()),
-          along_(robot, solution, none_, nowhere_) {}
+        : SectionEnds(layout.sections.size()), distal_contact(layout.sections.size()), proximal_contact(layout.sections.size()),
+          layout_(layout), along_(robot, layout, solution, none_, nowhere_), near_(2 * layout.sections.size()), known_(near_.size(), 0) {}
 
     template <class M>
-    void stage(M& march, const Section<double>& section, int k, double s, double weight) {
-        EndsReader::stage(march, section, k, s, weight);
-        if (s == section.distal) read(march, section, k, s, distal_contact[k]);
-    }
-
-    template <class M>
-    void operator()(M& march, int k, const double* before, double s, double h) {
-        EndsReader::operator()(march, k, before, s, h);
+    void operator()(M& march, int k, const typename M::State* before, double s, double h) {
         const Section<double>& section = layout_.sections[k];
+        if (section.guided) return;
+        if (s == section.distal) read(march, before, k, s, 2 * k + 1, distal[k], distal_contact[k]);
         if (!ends_section(section, s + h)) return;
-        read(march, section, k, section.proximal, proximal_contact[k]);
+        read(march, march.z, k, section.proximal, 2 * k, proximal[k], proximal_contact[k]);
     }
 
   private:
     static inline const Samples none_{};
     static inline const std::vector<double> nowhere_{};
+    const Layout<double>& layout_;
     ContactReader along_;
+    std::vector<Strains> near_;  // at the sections' ends, in the march before
+    std::vector<char> known_;
 
     template <class M>
-    void read(const M& march, const Section<double>& section, int k, double s, ContactRecord& out) {
-        for (int& outer : out.outer) outer = -1;
-        if (section.guided) return;
-        failed = failed || !along_.read_states(k, s, march.z, march.solver.strains, march.z + march.packing.frame, out);
+    void read(const M& march, const typename M::State* state, int k, double s, int place, SectionEnd& end, ContactRecord& contact) {
+        if (!known_[place]) near_[place] = guess(march, k, place);
+        double z[STATES];
+        for (int n = 0; n < march.packing.count; ++n) z[n] = value(state[n]);
+        failed = failed || !along_.read_states(k, s, z, near_[place], z + march.packing.frame, contact, &end);
+        known_[place] = !failed;
+    }
+
+    /// Just beyond, or where the march is.
+    template <class M>
+    Strains guess(const M& march, int k, int place) const {
+        const int count = layout_.sections[k].active_count;
+        const bool distal_end = place == 2 * k + 1;
+        if (distal_end && place + 1 < static_cast<int>(near_.size()) && known_[place + 1] && layout_.sections[k + 1].active_count == count)
+            return near_[place + 1];
+        const auto& near = march.solver.strains;
+        Strains e{value(near.kx), value(near.ky), value(near.wx), value(near.wy), {}, {}};
+        for (int a = 0; a < count; ++a) {
+            e.tau[a] = value(near.tau[a]);
+            e.eta[a] = value(near.eta[a]);
+        }
+        return e;
     }
 };
 

@@ -1,7 +1,27 @@
 // The marches of Newton's iteration, in a translation unit of their own: compilers inline less in large ones.
 #include "newton.hpp"
 
+#include "friction_pressing.hpp"
+#include "stability.hpp"
+
 namespace tactr {
+
+namespace {
+
+/// An observer, and another where there is one.
+template <class A, class B>
+struct Beside {
+    A& one;
+    B* other;
+
+    template <class M>
+    void operator()(M& march, int k, const typename M::State* before, double s, double h) {
+        one(march, k, before, s, h);
+        if (other) (*other)(march, k, before, s, h);
+    }
+};
+
+}  // namespace
 
 template <class M, class T>
 void NewtonSolver::read_tip(Solution& solution, const M& march, const FreeEnd<T>& end, const T* r) {
@@ -49,11 +69,24 @@ bool NewtonSolver::evaluate_lanes(Solution& solution, Kind kind) {
     if (!is_firm(kind)) march.solver.precision = Precision::rough;
     march.slope_lanes = shooting.unknowns;
     tell_shift(solution);
-    if (!march.run(end, solution.mesh)) {
+    std::optional<RubbingNodes<T>> rubbing;
+    if (rubbed && full) march.rubbing = &rubbing.emplace(rubbed->nodes, rubbed->first_load, MAX_UNKNOWNS + 1);  // their torques stand still
+    const auto run = [&] {
+        if (!watches_stability || !full) return march.run(end, solution.mesh);
+        StabilityReport report;
+        JacobiObserver<K> observer(layout, shooting, end, robot.tube_count, 0, report);
+        Beside<JacobiObserver<K>, PressingReader> both{observer, pressing};
+        if (!march.run(end, solution.mesh, both)) return false;
+        surely_stable = report.conjugate_count == 0 && report.margin > SURE_MARGIN;
+        for (double error : observer.section_error) surely_stable = surely_stable && error < StabilityPass::ROUGH_TOLERANCE;
+        return true;
+    };
+    if (!run()) {
         solution.shortest_tendon = smaller(solution.shortest_tendon, march.solver.shortest_tendon);
         return false;
     }
     note(solution, march);
+    if (rubbing) rubbed->take(*rubbing, march.base, actuation.rotation, shooting.unknowns);
     T r[MAX_UNKNOWNS];
     shooting.residual(march.base, actuation.rotation, r);
     for (int i = 0; i < shooting.unknowns; ++i) {
@@ -118,10 +151,7 @@ bool NewtonSolver::step_by_derivatives(Solution& solution, double section_tolera
 
 void NewtonSolver::approach(const Solution& guess, Solution& solution) {
     double missed[MAX_UNKNOWNS];
-    BaseState<double> met;  // the base the neighbour met: its own rotations, upright
-    for (int i = 0; i < robot.tube_count; ++i) met.psi[i] = guess.rotation[i];
-    for (int c = 0; c < 4; ++c) met.quaternion[c] = c == 0;
-    shooting.residual(met, actuation.rotation, missed);
+    missed_at(guess, missed);
     step_with_neighbour(missed, solution);
 
     March<double, double> march(robot, layout, actuation, shooting.newton_options());

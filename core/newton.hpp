@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "dense.hpp"
 #include "free_end.hpp"
 #include "march.hpp"
+#include "rubbing_nodes.hpp"
 #include "solution.hpp"
 #include "stride.hpp"
 
 namespace tactr {
+
+class PressingReader;
 
 /// Newton on the base residual, on a mesh of steps that keeps the discretisation error below tolerance.
 class NewtonSolver {
@@ -23,6 +27,11 @@ class NewtonSolver {
     const Shooting shooting;
     int strides = 0;                // left, where Newton leads away from stable equilibria
     double residual[MAX_UNKNOWNS];  // at the last evaluation; its derivatives are in the solution
+    RubbedNodes* rubbed = nullptr;        // read in marches with the path, where tubes rub
+    PressingReader* pressing = nullptr;   // and in those of them that have derivatives
+    bool watches_stability = false;       // in marches with path and derivatives
+    bool surely_stable = false;           // the last of them saw that it is stable, and far from the limit
+    bool bounds_error = false;            // marches without derivatives, too, tell how much they err, at the most
 
     /// clamp: where the base is, and the tubes' rotations hold; what lies before it is left away.
     NewtonSolver(const Robot& robot_, const Actuation<double>& actuation_, const Settings& settings_,
@@ -96,11 +105,7 @@ class NewtonSolver {
     /// neighbour, or too far from one, or too coarse a mesh.
     bool lead(const Solution& guess, Solution& solution, const FreeEnd<double>* ahead) {
         if (!start_from(guess, solution, ahead) && !carry_over(guess, solution, ahead)) return false;
-        for (int more = MOST_REFINED;; --more) {
-            if (!evaluate(solution, Kind::draft) || !(solution.base_residual < Stride::CLOSE)) return false;
-            if (is_fine(solution)) break;
-            if (more == 0 || !refine(solution, allowed_error(solution))) return false;
-        }
+        if (!evaluate_finely(solution, Kind::draft, Stride::CLOSE)) return false;
         double missed[MAX_UNKNOWNS];
         std::copy(residual, residual + shooting.unknowns, missed);
         step_with_neighbour(missed, solution);
@@ -128,13 +133,18 @@ class NewtonSolver {
         shooting.scale(march);
         march.solver.precision = Precision::checked;
         march.solver.tolerance = section_tolerance;
+        if (bounds_error) march.error_weight = shooting.error_weight;
         tell_shift(solution);
+        std::optional<RubbingNodes<double>> rubbing;
+        if (rubbed) march.rubbing = &rubbing.emplace(rubbed->nodes, rubbed->first_load, 0);
         if (!march.run(solution.free_end, solution.mesh, observer)) return false;
         base = march.base;
+        if (rubbed) rubbed->take(*rubbing, base, actuation.rotation, 0);
         shooting.residual(base, actuation.rotation, residual);
         solution.base_residual = norm(residual);
         if (!std::isfinite(solution.base_residual)) return false;
         note(solution, march);
+        if (bounds_error) bound_error(solution, march);
         shooting.tip_pose(solution.free_end, base, actuation.rotation[0], solution.tip_position, solution.tip_quaternion);
         solution.tendon_length = march.tendon_length;
         return true;
@@ -185,6 +195,23 @@ class NewtonSolver {
     enum class Kind { rough, firm, draft, exact, check };
 
     bool evaluate(Solution& solution, Kind kind);
+
+    /// A march with path and derivatives, on a mesh fine enough. False: the base is missed by more than close, or no mesh is.
+    bool evaluate_finely(Solution& solution, Kind kind, double close) {
+        for (int more = MOST_REFINED;; --more) {
+            if (!evaluate(solution, kind) || !(solution.base_residual < close)) return false;
+            if (is_fine(solution)) return true;
+            if (more == 0 || !refine(solution, allowed_error(solution))) return false;
+        }
+    }
+
+    /// By how much the base of a neighbour misses the rotations as they are now.
+    void missed_at(const Solution& guess, double* missed) const {
+        BaseState<double> met;  // the base the neighbour met: its own rotations, upright
+        for (int i = 0; i < robot.tube_count; ++i) met.psi[i] = guess.rotation[i];
+        for (int c = 0; c < 4; ++c) met.quaternion[c] = c == 0;
+        shooting.residual(met, actuation.rotation, missed);
+    }
 
     /// Newton with backtracking on the largest residual. first: kind of the first march; the last is exact or a check.
     /// True: below tolerance.
@@ -292,6 +319,8 @@ class NewtonSolver {
         shooting.move(FreeEnd<double>(solution.free_end), missed, -1.0, solution.free_end);
     }
 
+    static constexpr double SURE_MARGIN = 0.1;
+
     static constexpr double LONGEST_CHORD = 1.0;  // rad: of a step without derivatives of its own
 
     template <int K>
@@ -302,6 +331,18 @@ class NewtonSolver {
         solution.shortest_tendon = march.solver.shortest_tendon;
         solution.section_residual = march.solver.worst_residual;
         solution.least_stretch = march.solver.least_stretch;
+    }
+
+    /// As if all errors of all sections moved the tip the same way.
+    template <class M>
+    void bound_error(Solution& solution, const M& march) {
+        section_error_ = march.section_error;
+        edge_error_ = march.edge_error;
+        length_error_ = march.length_error;
+        solution.discretisation_error = solution.length_error = 0.0;
+        for (double error_here : section_error_) solution.discretisation_error += ERROR_SAFETY * error_here;
+        for (double error_here : length_error_) solution.length_error += ERROR_SAFETY * error_here;
+        note_excess(solution);
     }
 
     template <class M, class T>

@@ -12,7 +12,7 @@ namespace tactr {
 /// their host there, or end on another tube, hand their pull over; only what crosses the axis is contact.
 class PointContactReader {
   public:
-    PointContactReader(const Robot& robot, const Layout<double>& layout, const EndsReader& ends)
+    PointContactReader(const Robot& robot, const Layout<double>& layout, const SectionEnds& ends)
         : robot_(robot), layout_(layout), ends_(ends) {}
 
     /// turn: from the march's axes to the world's.
@@ -28,7 +28,7 @@ class PointContactReader {
   private:
     const Robot& robot_;
     const Layout<double>& layout_;
-    const EndsReader& ends_;
+    const SectionEnds& ends_;
 
     /// Across the axis all that holds the tubes outside: in the guide as a whole, and at its exit.
     ContactRecord hold_at_exit(int k, const double* turn) const {

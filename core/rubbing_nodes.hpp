@@ -17,6 +17,7 @@ struct RubbingNode {
     double slide;  // m, by which the inner tube has slid along the outer one
     double torque; // N m about d3, on the inner tube
     double twist;  // rad, angle of the inner tube from the outer one; NaN: not known, whatever it is
+    double slid;   // -1 or 1 where it slid in the step before, as FrictionStep::slides; 0: it held
 };
 
 /// In a march: the angles at the nodes and, in the lanes from ``lane`` on, their torques.
@@ -44,6 +45,35 @@ struct RubbingNodes {
             if (l < 0 || l >= LaneCount<T>::value) return;
             if (on_inner) y[M3 + node.inner].d[l] += 1.0;
             else if (node.outer >= 0) y[M3 + node.outer].d[l] -= 1.0;
+        }
+    }
+};
+
+/// What a march found at the nodes: angles, and in one with derivatives their rates with its first lanes, row-major.
+struct RubbedNodes {
+    const std::vector<RubbingNode>& nodes;
+    int first_load;
+    std::vector<double> twist, rates;
+    std::vector<char> felt;
+
+    RubbedNodes(const std::vector<RubbingNode>& nodes_, int first_load_) : nodes(nodes_), first_load(first_load_) {}
+
+    template <class T>
+    void take(const RubbingNodes<T>& read, const BaseState<T>& base, const double* rotation, int lanes) {
+        const size_t count = nodes.size();
+        felt = read.felt;
+        twist.resize(count);
+        for (size_t k = 0; k < count; ++k) {
+            const RubbingNode& node = nodes[k];
+            twist[k] = value(read.twist[k]);
+            if (node.outer < 0) twist[k] += rotation[0] - value(base.psi[0]);
+            else if (!felt[k]) twist[k] = value(base.psi[node.inner]) - value(base.psi[node.outer]);
+        }
+        if constexpr (LaneCount<T>::value > 0) {
+            rates.resize(count * lanes);
+            for (size_t k = 0; k < count; ++k)
+                for (int l = 0; l < lanes; ++l)
+                    rates[k * lanes + l] = read.twist[k].d[l] - (nodes[k].outer < 0 ? base.psi[0].d[l] : 0.0);
         }
     }
 };

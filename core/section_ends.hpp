@@ -65,14 +65,20 @@ void read_end(const M& march, const Section<double>& section, const double* stat
     }
 }
 
+/// By section.
+struct SectionEnds {
+    std::vector<SectionEnd> distal, proximal;
+
+    explicit SectionEnds(size_t sections) : distal(sections), proximal(sections) {}
+};
+
 /// Watches a march and keeps both ends of every section.
-class EndsReader {
+class EndsReader : public SectionEnds {
   public:
     using Stages = void;
-    std::vector<SectionEnd> distal, proximal;  // by section
 
     EndsReader(const Robot& robot, const Layout<double>& layout)
-        : distal(layout.sections.size()), proximal(layout.sections.size()), robot_(robot), layout_(layout) {}
+        : SectionEnds(layout.sections.size()), robot_(robot), layout_(layout) {}
 
     template <class M>
     void stage(M& march, const Section<double>& section, int k, double s, double) {

@@ -117,8 +117,10 @@ class Cutter {
         breaks_.settle();
     }
 
-    Layout<P> cut() const {
+    Layout<P> cut() {
         Layout<P> layout;
+        for (int l = 0; l < robot_.point_load_count; ++l)
+            load_at_.push_back(breaks_.at(translation_[robot_.point_loads[l].tube] + robot_.point_loads[l].at));
         int first = breaks_.at(translation_[0]), last = 0;
         for (int i = 0; i < robot_.tube_count; ++i) {
             first = std::min(first, breaks_.at(translation_[i]));
@@ -144,6 +146,7 @@ class Cutter {
     const RobotOf<C>& robot_;
     const P* translation_;
     Breakpoints<P> breaks_;
+    std::vector<int> load_at_;  // the breakpoint of every point load
 
     P tip(int i) const { return translation_[i] + robot_.tubes[i].length; }
 
@@ -263,14 +266,31 @@ class Cutter {
         section.distributed_loads.end = static_cast<int>(layout.distributed_loads.size());
         section.point_loads.begin = static_cast<int>(layout.point_loads.size());
         for (int l = 0; l < robot_.point_load_count; ++l) {
-            const PointLoadOf<C>& load = robot_.point_loads[l];
-            if (breaks_.at(translation_[load.tube] + load.at) != k + 1) continue;
-            const int slot = slot_of(section, load.tube);
+            if (load_at_[l] != k + 1) continue;
+            const int slot = slot_of(section, robot_.point_loads[l].tube);
             if (slot >= 0) layout.point_loads.push_back({l, slot});
         }
         section.point_loads.end = static_cast<int>(layout.point_loads.size());
     }
 };
+
+/// The same sections in other numbers, of which none moves.
+template <class D>
+Layout<D> at_rest(const Layout<double>& layout) {
+    Layout<D> out;
+    out.hosted = layout.hosted;
+    out.point_loads = layout.point_loads;
+    out.distributed_loads = layout.distributed_loads;
+    out.max_hosted = layout.max_hosted;
+    for (const Section<double>& from : layout.sections) {
+        Section<D> to{D(from.proximal), D(from.distal), from.guided, from.even, from.winding, from.active_count, {}, {},
+                      from.hosted, from.point_loads, from.distributed_loads};
+        std::copy(from.active, from.active + MAX_TUBES, to.active);
+        std::copy(from.piece, from.piece + MAX_TUBES, to.piece);
+        out.sections.push_back(to);
+    }
+    return out;
+}
 
 /// probe: one more breakpoint, where wanted. withdrawn: a tube whose proximal end counts as further back than others at
 /// its place.

@@ -179,6 +179,8 @@ class JacobiObserver {
 
 class StabilityPass {
   public:
+    static constexpr double ROUGH_TOLERANCE = 1e-3;  // of the field: enough to count conjugate points, but at the limit itself
+
     StabilityPass(const Robot& robot, const Actuation<double>& actuation, const Layout<double>& layout, const Shooting& shooting)
         : robot_(robot), actuation_(actuation), layout_(layout), shooting_(shooting) {}
 
@@ -200,8 +202,6 @@ class StabilityPass {
   private:
     static constexpr int ROUNDS = 8;
     static constexpr double FIELD_TOLERANCE = 1e-5;  // relative error of D in a section: where det D = 0 to 1e-5
-    static constexpr double ROUGH_TOLERANCE = 1e-3;  // enough to count conjugate points, but at the limit itself
-
     const Robot& robot_;
     const Actuation<double>& actuation_;
     const Layout<double>& layout_;

@@ -106,6 +106,9 @@ def potential_energy(robot: PreparedRobot, solution: Solution) -> float:
 def free_end_distance(robot: PreparedRobot, a: Solution, b: Solution) -> float:
     """Largest turn between two free ends, rad."""
 
+class RubbingModel:
+    """An equilibrium with friction between tubes, and how it answers."""
+
 def friction_step(
     robot: PreparedRobot,
     tension: np.ndarray,
@@ -115,10 +118,11 @@ def friction_step(
     residual_tolerance: float,
     nodes: np.ndarray,
     guess: Solution | None = None,
+    model: RubbingModel | None = None,
     stay: bool = False,
 ) -> dict[str, Any]:
     """One step of friction between tubes: robot with the torques, solution, torque, twist and limit at the
-    nodes."""
+    nodes. model: of the guess, which makes it fast."""
 
 class FrictionChannels:
     """Where tendons rub."""
@@ -135,6 +139,8 @@ class FrictionSettled:
     profiles: list[tuple[np.ndarray, np.ndarray, tuple[int, ...], tuple[bool, ...]] | None]
     missed: float
     rounds: int
+    def __init__(self, robot: PreparedRobot, solution: Solution, at: list[float]) -> None:
+        """Without tendons that rub."""
 
 class FrictionRounds:
     """Rounds of profiles, shape and wraps."""

@@ -35,9 +35,12 @@ def pressed_rod(friction: TubeFriction | float | None = None, stiff: float = 1e6
 
 
 class Driven:
-    """A robot led from one actuation to the next."""
+    """A robot led from one actuation to the next; with_models: each step takes over the model of the last."""
 
-    def __init__(self, robot: Robot, *, cells: int = 8, tolerance: float = 1e-8) -> None:
+    def __init__(
+        self, robot: Robot, *, cells: int = 8, tolerance: float = 1e-8, with_models: bool = True
+    ) -> None:
+        self.with_models = with_models
         self.prepared = Prepared(robot, tolerance=tolerance)
         self.step = TubeFrictionStep(robot, tolerance, self.prepared.residual_tolerance, cells)
         self.state: TubeFrictionState | None = None
@@ -46,8 +49,10 @@ class Driven:
     def to(self, rotation: Numbers) -> Rubbed:
         actuated = self.prepared._actuated(None, rotation, None)
         assert not isinstance(actuated, Prepared)
-        guess = None if self.last is None else self.last.solution
-        self.last = self.step(self.prepared._core, actuated.arrays, self.state, guess=guess)
+        last = self.last
+        guess = None if last is None else last.solution
+        model = last.model if last is not None and self.with_models else None
+        self.last = self.step(self.prepared._core, actuated.arrays, self.state, guess=guess, model=model)
         assert self.last.settled
         self.state = self.last.state
         return self.last

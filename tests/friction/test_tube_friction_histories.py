@@ -25,6 +25,7 @@ from tactr import (
 )
 
 from .rods import COEFFICIENT, FULL, GJ, LENGTH, RADIUS, TORQUE, pressed_rod, soft
+from .rods import Driven as Led
 
 
 def curved(friction: float = 0.15) -> Robot:
@@ -107,6 +108,32 @@ def test_friction_holds_the_tip_back() -> None:
     psi = np.array([shape.tubes[1].psi[-1] for shape in driven])
     free = tactr.solve(curved(), rotation={"inner": 0.3}).tubes[1].psi[-1]
     assert psi[5] < free - 1e-3 and psi[2] > free + 1e-3
+
+
+@pytest.mark.parametrize("robot", [curved(0.3), pressed_rod()], ids=["curved", "rod"])
+def test_a_model_changes_nothing_but_the_time(robot: Robot) -> None:
+    """Steps that follow the model of the step before, or one that is far too old, find what steps find that
+    look for an equilibrium for every estimate of the torques."""
+    searching, following = Led(robot, with_models=False), Led(robot)
+    first = following.to([0.0, 0.0])
+    searching.to([0.0, 0.0])
+    translation = np.array([tube.translation for tube in robot.tubes])
+    marches = 0
+    for angle in (0.1, 0.25, 0.3, 0.28, 0.1, -0.1, 0.2):
+        before, last = searching.state, searching.last
+        assert last is not None
+        arrays = np.zeros(0), np.array([0.0, angle]), translation
+        aged = searching.step(
+            searching.prepared._core, arrays, before, guess=last.solution, model=first.model
+        )
+        found = [led.to([0.0, angle]) for led in (searching, following)] + [aged]
+        marches += found[1].iterations
+        for other in found[1:]:
+            assert other.settled
+            for a, b in zip(found[0].state.contacts, other.state.contacts, strict=True):
+                assert b.torque == pytest.approx(a.torque, abs=1e-6 * max(a.limit.max(), 1e-12))
+                assert b.twist == pytest.approx(a.twist, abs=1e-7)
+    assert marches <= 7 * 6
 
 
 def test_the_result_does_not_depend_on_the_steps() -> None:

@@ -170,7 +170,10 @@ class _Driver:
             plain = plain_shape(self._prepared, point.through(self._plays, state.passed))
             return Reached(lambda: plain, lambda: state, self._why(plain), max(count, 1), *spent, 0)
         seconds = perf_counter() - start
-        shape = self._shape(settled.found, state.passed, seconds, settled.pulled)
+        later = partial(self._shape, settled.found, state.passed, seconds, settled.pulled)
+        if settled.pulled is None:
+            return Reached(later, lambda: state, "", count, *spent, settled.held)
+        shape = later()
         failed = "" if shape.converged else self._why(shape)
         return Reached(lambda: shape, lambda: state, failed, count, *spent, settled.held)
 
@@ -211,7 +214,7 @@ class _Driver:
                     heats[c] += loss
                     creeps[c] = max(creeps[c], slip)
             if settled.tubes is not None:
-                tube_heats += settled.tubes.heat_from(state.rubbing, state.tubes)
+                tube_heats += settled.tubes.heat
             state = self._taken(settled, ahead, state)
             if snaps:
                 self._past = ()
@@ -225,7 +228,8 @@ class _Driver:
         self._past = () if self._near is None else (self._near.found, *self._past[:1])
         self._near = settled
         along = self._equilibrium.profiles(settled.found)
-        return DriveState(state.tendons, state.tubes, along, given, passed, settled.tubes)
+        rubbing = None if settled.tubes is None else settled.tubes.state
+        return DriveState(state.tendons, state.tubes, along, given, passed, rubbing)
 
     def _settle(
         self, given: Actuators, state: DriveState, *, cold: bool, halves: bool = False

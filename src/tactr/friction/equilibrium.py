@@ -20,14 +20,14 @@ from tactr.friction.actuators import Actuators
 from tactr.friction.channel import channels
 from tactr.friction.profiles import FoundProfiles, Profiles
 from tactr.friction.tube_state import TubeFrictionState
-from tactr.friction.tube_step import TubeFrictionStep
+from tactr.friction.tube_step import Rubbed, TubeFrictionStep
 from tactr.robot import Robot
 from tactr.statics._complementary import complementary_tension
 from tactr.statics.assemble import tables
 from tactr.statics.parameters import WHOLE_NUMBERS
 from tactr.statics.pulls import Pulled, Pulls, is_stable
 from tactr.statics.solve import Prepared
-from tactr.statics.stability import is_stable_at_tensions, stability_of
+from tactr.statics.stability import is_stable_at_tensions
 
 MOST_ROUNDS = 45
 MOST_CHANGE = 0.3  # of a tension, from one round to the next
@@ -48,15 +48,13 @@ class Settled:
     """One equilibrium with friction.
 
     found: the kernel's, which holds the robot with its profiles and the torques between tubes; pulled: of the
-    tendons pulled by displacements, if there are any; tubes: where they rub, None without; held: in how many
-    directions of falling energy they hold the robot; spent: heat, J, of the step that led here, and creep, m,
-    by channel, where the kernel made it.
+    tendons pulled by displacements, if there are any; tubes: where they rub, None without; spent: heat, J, of
+    the step that led here, and creep, m, by channel, where the kernel made it.
     """
 
     found: _core.FrictionSettled
     pulled: Pulled | None = None
-    tubes: TubeFrictionState | None = None
-    held: int = 0
+    tubes: Rubbed | None = None
     spent: tuple[list[float], list[float]] | None = None
 
     @property
@@ -68,6 +66,11 @@ class Settled:
     def solution(self) -> _core.Solution:
         """Its shape."""
         return self.found.solution
+
+    @property
+    def held(self) -> int:
+        """In how many directions of falling energy tubes hold the robot."""
+        return 0 if self.tubes is None else self.tubes.held
 
 
 class Ahead(NamedTuple):
@@ -115,6 +118,8 @@ class Equilibrium:
         it was not looked at. None: not found, or not in one step."""
         if near is not None and pulls is None and not self._tubes_rub:
             return self._step(old, passed, near, past, limits)
+        if pulls is None and not self.channels:
+            return self._turn(passed, near, solution, tubes, stay, limits)
         prepared = self._prepared
         arrays = passed.tension, passed.rotation, passed.translation
         rows = old.rows(self._index)
@@ -128,7 +133,9 @@ class Equilibrium:
         if pulls is None and not self._tubes_rub:
             found = rounds.run(*arrays, *self._tolerances, solution, stay)
             return None if found is None else Settled(found), 0.0
-        settled = _Rounds(self, rounds, passed, pulls, stay, tubes).run(solution)
+        settled = _Rounds(self, rounds, passed, pulls, stay, tubes, None if near is None else near.tubes).run(
+            solution
+        )
         if settled is None or near is None or limits is None:
             return settled, 0.0
         missed = _core.friction_history_missed(self.rows, near.found, settled.found, limits.missed)
@@ -159,6 +166,27 @@ class Equilibrium:
             limits,
         )
         return None if found is None else Settled(found, spent=(spent[0], spent[1])), missed
+
+    def _turn(
+        self,
+        passed: Actuators,
+        near: Settled | None,
+        solution: _core.Solution,
+        tubes: TubeFrictionState | None,
+        stay: bool,
+        limits: Limits | None,
+    ) -> tuple[Settled | None, float]:
+        """Where tensions are given and no tendon rubs: tubes alone remember."""
+        arrays = passed.tension, passed.rotation, passed.translation
+        model = None if near is None or near.tubes is None else near.tubes.model
+        rubbed = self.tube_step(self._prepared._core, arrays, tubes, guess=solution, model=model, stay=stay)
+        if not rubbed.settled:
+            return None, 0.0
+        found = _core.FrictionSettled(rubbed.core, rubbed.solution, passed.flat)
+        settled = Settled(found, None, rubbed, ([], []))
+        if near is None or limits is None or self._goes_on(near, settled, limits.turn):
+            return settled, 0.0
+        return None, 0.0
 
     def ahead(
         self,
@@ -202,9 +230,10 @@ class _Rounds:
         pulls: Pulls | None,
         stay: bool,
         tubes: TubeFrictionState | None,
+        rubbed: Rubbed | None,
     ) -> None:
         self._owner, self._rounds, self._pulls, self._stay = owner, rounds, pulls, stay
-        self._tubes_before, self._tubes, self._held = tubes, None, 0
+        self._tubes_before, self._rubbed = tubes, rubbed
         self._tension = passed.tension.copy()
         self._rotation, self._translation = passed.rotation, passed.translation
 
@@ -221,7 +250,7 @@ class _Rounds:
             pulled, step = self._pull(core, solution, count)
             if rounds.missed <= self._owner._prepared.residual_tolerance and step is None:
                 found = rounds.settled(core, solution)
-                return Settled(found, pulled, self._tubes, self._held)
+                return Settled(found, pulled, self._rubbed)
             tension = self._tension if step is None else self._nearer(step)
             self._tension = self._nearer(rounds.mix(self._tension / scale, tension / scale) * scale)
         return None
@@ -242,9 +271,10 @@ class _Rounds:
         """The robot with the tubes' friction torques, and its solution; None: not found."""
         prepared, arrays = self._owner._prepared, (self._tension, self._rotation, self._translation)
         if self._owner._tubes_rub:
+            model = None if self._rubbed is None else self._rubbed.model
             step = self._owner.tube_step
-            rubbed = step(core, arrays, self._tubes_before, guess=guess, stay=self._stay)
-            self._tubes, self._held = rubbed.state, rubbed.held
+            rubbed = step(core, arrays, self._tubes_before, guess=guess, model=model, stay=self._stay)
+            self._rubbed = rubbed
             return (rubbed.core, rubbed.solution) if rubbed.settled else None
         tolerance = prepared.tolerance if self._pulls is None else prepared.held_tolerance
         found = _core.solve(core, *arrays, tolerance, prepared.residual_tolerance, guess, stay=self._stay)
@@ -285,10 +315,9 @@ class _Rounds:
 def _stable(settled: Settled) -> bool:
     if settled.pulled is not None:
         return is_stable(settled.core, settled.pulled.pulls, settled.solution)
-    stable = is_stable_at_tensions(settled.core, settled.solution)
-    if stable or not settled.held:
-        return stable
-    return len(stability_of(settled.core, settled.solution).conjugate_points) <= settled.held
+    if settled.tubes is not None:
+        return settled.tubes.falls <= settled.held
+    return is_stable_at_tensions(settled.core, settled.solution)
 
 
 def _without_rates(robot: Robot) -> _core.PreparedRobot:

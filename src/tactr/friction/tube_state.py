@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,22 +44,6 @@ class TubeFrictionState:
     def contact(self, inner: str) -> TubeContact:
         """The first contact of a tube with what is around it."""
         return next(contact for contact in self.contacts if contact.inner == inner)
-
-    def heat_from(self, before: TubeFrictionState | None, tubes: Sequence[str]) -> np.ndarray:
-        """What friction took since a state before, by inner tube, (tubes,), J: torque times slip, with the
-        mean torque where a place slid on, otherwise that after: it turns round before there is slip."""
-        heat = np.zeros(len(tubes))
-        for contact in self.contacts:
-            old = None if before is None else before._same(contact)
-            if old is not None:
-                slid_on = (old.slides == contact.slides) & (contact.slides != 0.0)
-                torque = np.where(slid_on, 0.5 * (old.torque + contact.torque), contact.torque)
-                heat[tubes.index(contact.inner)] -= float((torque * (contact.twist - old.twist)).sum())
-        return heat
-
-    def _same(self, contact: TubeContact) -> TubeContact | None:
-        pair = contact.inner, contact.outer
-        return next((other for other in self.contacts if (other.inner, other.outer) == pair), None)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists and numbers, for JSON."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -15,13 +17,17 @@ from tactr.robot import Robot
 
 Arrays = tuple[np.ndarray, np.ndarray, np.ndarray]
 
+# columns of the kernel's nodes
+INNER, OUTER, S, ARM, LEVER, RADIUS, SLIDE, TORQUE, TWIST, SLID, AT_END, COLUMNS = range(12)
+
 
 class Rubbed(NamedTuple):
     """The kernel's robot with the friction torques as loads, its solution there, and the state.
 
     settled: whether torques and contact forces agree; otherwise neither solution nor state mean anything.
-    iterations: equilibria that it took. held: in how many directions of falling energy the places that hold
-    keep the robot from going.
+    iterations: equilibria or marches that it took. falls: in how many directions the energy falls at these
+    torques; held: in how many of them the places that hold keep the robot from going. heat (tubes,): J that
+    friction took, by inner tube. model: what makes the next step fast.
     """
 
     core: _core.PreparedRobot
@@ -29,7 +35,27 @@ class Rubbed(NamedTuple):
     state: TubeFrictionState
     settled: bool
     iterations: int
+    falls: int
     held: int
+    heat: np.ndarray
+    model: _core.RubbingModel
+
+
+class Pair(NamedTuple):
+    """Where one tube rubs in what is around it (None: the guide), by names and by number, and which of all
+    places these are."""
+
+    inner: str
+    outer: str | None
+    bodies: tuple[int, int]
+    places: slice
+
+
+class Cut(NamedTuple):
+    """All places at one translation: pairs, and the kernel's nodes as nothing has turned yet."""
+
+    pairs: list[Pair]
+    nodes: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -53,87 +79,100 @@ class TubeFrictionStep:
         state: TubeFrictionState | None,
         *,
         guess: _core.Solution | None = None,
+        model: _core.RubbingModel | None = None,
         stay: bool = False,
     ) -> Rubbed:
         """From a state to the next one, at tension, rotation and translation; core: the robot there without
-        friction between tubes. Without a state the tubes are put together there, without friction torques."""
-        places = overlaps(self.robot, arrays[2], self.cells)
-        names = [tube.name for tube in self.robot.tubes]
-        before = [_contact_before(place, names, state) for place in places]
-        slides = np.zeros(len(names)) if state is None else arrays[2] - state.translation
-        rows = [_rows(place, contact, slides) for place, contact in zip(places, before, strict=True)]
-        nodes = np.concatenate([*rows, np.empty((0, 10))])
+        friction between tubes. Without a state the tubes are put together there, without friction torques.
+        model: that came with the guess; without it a step takes much longer."""
+        translation = arrays[2]
+        pairs, nodes = self._cut(tuple(translation.tolist()))
+        if state is not None:
+            nodes = _nodes_after(state, translation, pairs, nodes)
         found = _core.friction_step(
-            core, *arrays, self.tolerance, self.residual_tolerance, nodes, guess, stay=stay
+            core, *arrays, self.tolerance, self.residual_tolerance, nodes, guess, model, stay=stay
         )
+        contacts = []
+        if found["settled"]:
+            rows = nodes[:, S], *(found[name] for name in ("torque", "twist", "limit", "slides"))
+            for pair in pairs:
+                here = [row[pair.places] for row in rows]
+                contacts.append(TubeContact(pair.inner, pair.outer, *here))
         return Rubbed(
             found["robot"],
             found["solution"],
-            TubeFrictionState(_contacts(places, names, nodes, found), np.array(arrays[2])),
+            TubeFrictionState(tuple(contacts), translation.copy()),
             found["settled"],
             found["iterations"],
-            _held(nodes, found) if found["settled"] else 0,
+            found["falls"],
+            _held(nodes, found) if found["falls"] else 0,
+            found["heat"],
+            found["model"],
         )
+
+    @cached_property
+    def _cut(self) -> Callable[[tuple[float, ...]], Cut]:
+        """Where tubes rub at a translation; it is mostly that of the step before."""
+
+        @lru_cache(maxsize=2)
+        def cut(translation: tuple[float, ...]) -> Cut:
+            names = [tube.name for tube in self.robot.tubes]
+            pairs, rows, first = [], [np.empty((0, COLUMNS))], 0
+            for place in overlaps(self.robot, np.array(translation), self.cells):
+                here = slice(first, first + len(place.s))
+                bodies = place.inner, place.outer
+                outer = None if place.outer == GUIDE else names[place.outer]
+                pairs.append(Pair(names[place.inner], outer, bodies, here))
+                rows.append(_at_rest(place))
+                first = here.stop
+            return Cut(pairs, np.concatenate(rows))
+
+        return cut
+
+
+def _at_rest(place: Overlap) -> np.ndarray:
+    """The kernel's nodes, without torques, whatever their angles."""
+    rows = np.zeros((len(place.s), COLUMNS))
+    rows[:, INNER], rows[:, OUTER], rows[:, S] = place.inner, place.outer, place.s
+    rows[:, ARM], rows[:, LEVER], rows[:, RADIUS] = place.arm, place.lever, place.radius
+    rows[:, TWIST] = np.nan
+    rows[[0, -1], AT_END] = 1.0
+    return rows
+
+
+def _nodes_after(
+    state: TubeFrictionState, translation: np.ndarray, pairs: list[Pair], nodes: np.ndarray
+) -> np.ndarray:
+    """The kernel's nodes with what the state remembers; pairs are found by their names: translations bring
+    new neighbours together."""
+    nodes = nodes.copy()
+    moved = translation - state.translation
+    slid = moved.any()
+    known = {(contact.inner, contact.outer): contact for contact in state.contacts}
+    for pair in pairs:
+        inner, outer = pair.bodies
+        if slid:
+            nodes[pair.places, SLIDE] = moved[inner] - (0.0 if outer == GUIDE else moved[outer])
+        contact = known.get((pair.inner, pair.outer))
+        if contact is None:
+            continue
+        if len(contact.s) != pair.places.stop - pair.places.start:
+            raise RobotError(
+                "state",
+                f"{pair.inner!r} rubs at {len(contact.s)} places",
+                f"a state of this robot, with {pair.places.stop - pair.places.start} places",
+            )
+        nodes[pair.places, TORQUE] = contact.torque
+        nodes[pair.places, TWIST] = contact.twist
+        nodes[pair.places, SLID] = contact.slides
+    return nodes
 
 
 def _held(nodes: np.ndarray, found: dict[str, np.ndarray]) -> int:
     """Places that hold forbid the motions that turn them. The second variation of the energy is negative in
     as many directions fewer as the compliance of these places, d(twist)/d(torque), has negative eigenvalues
     (Haynsworth's inertia formula for the bordered matrix)."""
-    holds = (found["slides"] == 0.0) & (found["limit"] > 0.0) & (nodes[:, 6] == 0.0)
-    compliance = found["compliance"]
-    holds &= np.diag(compliance) != 0.0  # some place turns with nothing
-    among = compliance[np.ix_(holds, holds)]
+    holds = (found["slides"] == 0.0) & (found["limit"] > 0.0) & (found["felt"] != 0.0)
+    holds &= nodes[:, SLIDE] == 0.0
+    among = found["compliance"][np.ix_(holds, holds)]
     return int((np.linalg.eigvalsh(0.5 * (among + among.T)) < 0.0).sum()) if holds.any() else 0
-
-
-def _contact_before(place: Overlap, names: list[str], state: TubeFrictionState | None) -> TubeContact | None:
-    if state is None:
-        return None
-    pair = (names[place.inner], None if place.outer == GUIDE else names[place.outer])
-    for contact in state.contacts:  # found by names: translations bring new neighbours together
-        if (contact.inner, contact.outer) == pair:
-            if len(contact.s) != len(place.s):
-                raise RobotError(
-                    "state",
-                    f"{pair[0]!r} rubs at {len(contact.s)} places",
-                    f"a state of this robot, with {len(place.s)} places",
-                )
-            return contact
-    return None
-
-
-def _rows(place: Overlap, before: TubeContact | None, slides: np.ndarray) -> np.ndarray:
-    """The kernel's nodes: inner, outer, s, arm, lever, radius, slide, torque, twist, at an end."""
-    rows = np.zeros((len(place.s), 10))
-    rows[:, 0], rows[:, 1], rows[:, 2] = place.inner, place.outer, place.s
-    rows[:, 3], rows[:, 4], rows[:, 5] = place.arm, place.lever, place.radius
-    rows[:, 6] = slides[place.inner] - (0.0 if place.outer == GUIDE else slides[place.outer])
-    rows[:, 7] = 0.0 if before is None else before.torque
-    rows[:, 8] = np.nan if before is None else before.twist
-    rows[[0, -1], 9] = 1.0
-    return rows
-
-
-def _contacts(
-    places: list[Overlap], names: list[str], nodes: np.ndarray, found: dict[str, np.ndarray]
-) -> tuple[TubeContact, ...]:
-    contacts, first = [], 0
-    for place in places:
-        here = slice(first, first + len(place.s))
-        first = here.stop
-        slides, held = found["slides"][here], nodes[here, 8]
-        keeps = (slides == 0.0) & (nodes[here, 6] == 0.0) & np.isfinite(held)  # no drift by rounding
-        keeps &= np.diag(found["compliance"])[here] != 0.0  # clamped: turns with its actuator
-        contacts.append(
-            TubeContact(
-                names[place.inner],
-                None if place.outer == GUIDE else names[place.outer],
-                nodes[here, 2],
-                found["torque"][here],
-                np.where(keeps, held, found["twist"][here]),
-                found["limit"][here],
-                slides,
-            )
-        )
-    return tuple(contacts)
