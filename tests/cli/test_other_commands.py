@@ -34,7 +34,8 @@ def test_check(run, tmp_path):
         f'{bad}:2: tubes[0].length: is missing; expected length of the whole tube, such as "140 mm"',
         f"{bad}:3: tubes[0].lenght: is not a known key (did you mean length?); expected one of name, length, "
         "outer_diameter, inner_diameter, diameter, stiffness, notches, sections, material, precurvature, "
-        "translation, rotation, rotation_compliance, limits, rotation_play, translation_play, friction",
+        "translation, rotation, rotation_compliance, translation_compliance, limits, rotation_play, "
+        "translation_play, friction",
         f'{bad}:4: tubes[0].diameter: 1 has no unit; expected a length such as "140 mm" (perhaps "1 mm")',
     ]
 

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import tactr
-from tactr import Annulus, DriveState, Material, Robot, Straight, Tendon, Tube, _core
+from tactr import Annulus, DriveState, Material, PointLoad, Robot, Straight, Tendon, Tube, _core
 from tactr.friction.equilibrium import Equilibrium
 from tactr.friction.profiles import FoundProfiles
 from tactr.statics.solve import Prepared
@@ -291,6 +291,48 @@ def test_backlash_of_a_tube():
     states = tactr.drive(Robot([tube]), rows).states
     assert [float(s.passed.rotation[0]) for s in states] == pytest.approx([0.9, 0.9, 0.8])
     assert [float(s.passed.translation[0]) for s in states] == pytest.approx([-0.019, -0.019, -0.016])
+
+
+def pushed_rod(compliance, force):
+    section = Annulus(2e-3, 1.6e-3)
+    rod = Tube(
+        "rod",
+        length=0.15,
+        section=section,
+        material=SOFT,
+        translation=-0.05,
+        translation_compliance=compliance,
+    )
+    return Robot([rod], [], [PointLoad("rod", force=(0.0, 0.0, -force))])
+
+
+def test_a_pushed_rod_gives_way_by_force_times_compliance():
+    robot = pushed_rod(2e-4, 0.2)
+    rigid = pushed_rod(0.0, 0.2)
+    path = {"translation": np.array([[-0.05], [-0.04], [-0.05]])}
+    driven, plain = tactr.drive(robot, path), tactr.drive(rigid, path)
+    assert driven.converged
+    assert driven.tips[:, 2] == pytest.approx(plain.tips[:, 2] - 2e-4 * 0.2, abs=1e-7)
+    assert [s.robot.tubes[0].translation for s in driven] == pytest.approx(
+        [-0.05004, -0.04004, -0.05004], abs=1e-7
+    )
+    assert "give of 'rod'" in tactr.solve(robot).message
+
+
+def test_springs_of_bent_tubes_agree_with_the_forces_found():
+    robot = rubbing_tubes(0.2, None)
+    tubes = [replace(t, translation=-0.01, translation_compliance=1e-4, friction=0.1) for t in robot.tubes]
+    robot = robot.replace(tubes=tuple(tubes))
+    tension = np.array([[1.0, 2.0, 1.5], [2.0, 3.0, 2.0], [1.0, 1.5, 2.5]])
+    driven = tactr.drive(robot, {"tension": tension})
+    assert driven.converged
+    for shape in driven:
+        places = [tube.translation for tube in shape.robot.tubes]
+        expected = -0.01 - 1e-4 * shape.actuator_forces.force
+        assert np.abs(shape.actuator_forces.force).max() > 0.1
+        assert places == pytest.approx(expected, abs=2e-7)
+    again = tactr.drive(robot, {"tension": tension[2:]}, state=driven.states[1])
+    assert again.tips[0] == pytest.approx(driven.tips[2], abs=1e-7)
 
 
 def test_wrong_input_is_named():

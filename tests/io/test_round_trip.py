@@ -91,6 +91,7 @@ def robots(draw):
         translation=-draw(st.floats(0, 0.05)),
         rotation=draw(numbers),
         rotation_compliance=draw(st.just(0.0) | positive),
+        translation_compliance=draw(st.just(0.0) | positive),
         rotation_play=draw(st.just(0.0) | positive),
         translation_play=draw(st.just(0.0) | positive),
     )

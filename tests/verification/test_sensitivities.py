@@ -182,7 +182,13 @@ def numbers(owner: Any, path: str = "") -> Iterator[str]:
 
 
 NOT_OF_THE_SHAPE = {"compliance", "pretension"}  # of tendons with a tension
-NOT_OF_THE_SHAPE |= {"friction", "play", "rotation_play", "translation_play"}  # of tactr.drive only
+NOT_OF_THE_SHAPE |= {
+    "friction",
+    "play",
+    "rotation_play",
+    "translation_play",
+    "translation_compliance",
+}  # of tactr.drive only
 AT_AN_END = (".precurvature.0.0", ".parts.0.0", ".end")  # where first pieces start and fitted ones end
 STEP_FROM_ZERO = {
     "neutral_axis": 1e-5,

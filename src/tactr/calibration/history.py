@@ -15,7 +15,8 @@ from tactr.robot import Robot
 from tactr.statics.status import told_of_history
 
 REMEMBERED = re.compile(
-    r"(tubes|tendons)\..+?\.(friction(\.\w+)*|contacts\.\d+|play|rotation_play|translation_play)"
+    r"(tubes|tendons)\..+?\.(friction(\.\w+)*|contacts\.\d+|play|rotation_play|translation_play"
+    r"|translation_compliance)"
 )
 MOVED_BY = {"play": "displacement", "rotation_play": "rotation", "translation_play": "translation"}
 
@@ -24,7 +25,7 @@ def without_history(robot: Robot, frees: Sequence[Free]) -> list[Remark]:
     """Raise RobotError where a number is free that rows taken one by one cannot tell; what they leave out."""
     for path in (path for free in frees for path in free.paths):
         if REMEMBERED.fullmatch(path):
-            found = "friction and backlash show in what came before a row, and rows are taken one by one"
+            found = "it shows where rows are driven along in their order only, and they are taken one by one"
             raise RobotError(path, found, "history=True, on the command line --history", value=path)
     left_out = told_of_history(robot, driven=False).removeprefix("; ")
     return [Remark("no-history", f"rows are taken one by one, {left_out}")] if left_out else []

@@ -41,7 +41,7 @@ LEAST_SCALE = {
 LEAST_SCALE_OF_PLAY = {"play": 1e-3, "translation_play": 1e-3, "rotation_play": 0.05}
 NEVER_NEGATIVE = (
     "compliance", "pretension", "radius", "tension", "nu", "friction", "coefficient", "play", "rotation_play",
-    "translation_play", "rotation_compliance",
+    "translation_play", "rotation_compliance", "translation_compliance",
 )  # fmt: skip
 POSITIVE = (
     "E", "G", "density", "linear_density", "EI_x", "EI_y", "GJ", "EA", "GA", "length", "rest_length", "end",

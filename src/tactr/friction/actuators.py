@@ -55,6 +55,10 @@ class Actuators:
             passed_on(before.displacement, self.displacement, plays.displacement),
         )
 
+    def moved(self, translation: np.ndarray) -> Actuators:
+        """With other translations (tubes,)."""
+        return Actuators(self.tension, self.rotation, translation, self.displacement)
+
     def at_zero(self) -> Actuators:
         """Nothing given, by the same kinds of actuation."""
         return Actuators(*(0.0 * values for values in self._all()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from math import ceil, inf, sqrt
 from time import perf_counter
@@ -32,6 +33,7 @@ LIMITS = Limits(missed=1e-4, turn=0.3)
 SHORTEST_STEP = 1.0 / 32  # of the way between two points
 CAREFUL = 0.9  # of the longest step
 AT_ONCE = 64  # points between which nobody is told of progress
+MOST_YIELDS, YIELD_SHARE = 20, 0.1  # rounds in which springs give way, and of the tolerance, when they stay
 STRETCH = 0.2  # of a step, by which those on a way may be longer to come out even
 
 
@@ -89,7 +91,9 @@ class _Driver:
         self._near: Settled | None = None
         self._past: tuple[_core.FrictionSettled, ...] = ()  # what was found before that, the latest first
         self._stride = inf  # how far a step may be expected to get
-        self._at_tensions = self._all_by_tension and not (self._plays.any or self._equilibrium.tube_step.rubs)
+        self._springs = np.array([tube.translation_compliance for tube in self._robot.tubes])
+        loose = self._plays.any or self._equilibrium.tube_step.rubs or bool(self._springs.any())
+        self._at_tensions = self._all_by_tension and not loose
 
     def run(self, state: DriveState | None, progress: Callable[[int, int], None] | None) -> Driven:
         state = self._rest() if state is None else state
@@ -170,7 +174,8 @@ class _Driver:
             plain = plain_shape(self._prepared, point.through(self._plays, state.passed))
             return Reached(lambda: plain, lambda: state, self._why(plain), max(count, 1), *spent, 0)
         seconds = perf_counter() - start
-        later = partial(self._shape, settled.found, state.passed, seconds, settled.pulled)
+        passed = state.passed if settled.translation is None else state.passed.moved(settled.translation)
+        later = partial(self._shape, settled.found, passed, seconds, settled.pulled)
         if settled.pulled is None:
             return Reached(later, lambda: state, "", count, *spent, settled.held)
         shape = later()
@@ -237,6 +242,26 @@ class _Driver:
         """As ``Equilibrium.settle``; halves: a step that misses too much of its history need not be found, a
         shorter one follows."""
         passed = given.through(self._plays, state.passed)
+        if not self._springs.any():
+            return self._settle_at(passed, state, cold, halves)
+        near = self._near
+        translation = passed.translation if near is None or near.translation is None else near.translation
+        for _ in range(MOST_YIELDS):
+            settled, missed = self._settle_at(passed.moved(translation), state, cold, halves)
+            if settled is None:
+                return None, missed
+            force = _core.energetics(settled.core, settled.solution)["force"]
+            given_way = np.minimum(passed.translation - self._springs * force, 0.0)
+            moved = float(np.abs(given_way - translation).max())
+            if moved <= YIELD_SHARE * self._prepared.tolerance:
+                return replace(settled, translation=translation), missed
+            translation = given_way
+        return None, 0.0
+
+    def _settle_at(
+        self, passed: Actuators, state: DriveState, cold: bool, halves: bool
+    ) -> tuple[Settled | None, float]:
+        """Where actuators pass on what they do, and springs stay as they are."""
         pulls = None
         if self._any_pulled:
             prepared, arrays = self._prepared, (passed.tension, passed.rotation, passed.translation)

@@ -49,13 +49,15 @@ class Settled:
 
     found: the kernel's, which holds the robot with its profiles and the torques between tubes; pulled: of the
     tendons pulled by displacements, if there are any; tubes: where they rub, None without; spent: heat, J, of
-    the step that led here, and creep, m, by channel, where the kernel made it.
+    the step that led here, and creep, m, by channel, where the kernel made it; translation (tubes,): m, where
+    springs give way, None without.
     """
 
     found: _core.FrictionSettled
     pulled: Pulled | None = None
     tubes: Rubbed | None = None
     spent: tuple[list[float], list[float]] | None = None
+    translation: np.ndarray | None = None
 
     @property
     def core(self) -> _core.PreparedRobot:

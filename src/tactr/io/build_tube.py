@@ -41,6 +41,7 @@ PLAIN = (
     "translation",
     "rotation",
     "rotation_compliance",
+    "translation_compliance",
     "rotation_play",
     "translation_play",
 )

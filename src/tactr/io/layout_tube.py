@@ -233,6 +233,9 @@ TUBE = Record(
         "rotation_compliance": Field(
             quantity("torsional compliance"), 'of what turns it, in series, such as "0.1 deg/N/mm"; default 0'
         ),
+        "translation_compliance": Field(
+            quantity("compliance"), 'of what moves it, in series, such as "0.01 mm/N"; default 0'
+        ),
         "limits": Field(TUBE_LIMITS, "how far its actuators go, for sliders"),
         "rotation_play": Field(ANGLE, "whole backlash of its rotation; default 0"),
         "translation_play": Field(LENGTH, "whole backlash of its translation; default 0"),

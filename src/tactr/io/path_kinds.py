@@ -13,7 +13,7 @@ KIND_OF = {  # by the last word of a path; lengths otherwise
     "density": ("density",),
     "linear density": ("linear_density",),
     "force": ("tension", "pretension"),
-    "compliance": ("compliance",),
+    "compliance": ("compliance", "translation_compliance"),
     "torsional compliance": ("rotation_compliance",),
     "angle": ("rotation", "rotation_play", "phase", "rx", "ry", "rz"),
     "angle rate": ("rate",),

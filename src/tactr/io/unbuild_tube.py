@@ -77,6 +77,8 @@ def unbuild_tube(tube: Tube, place: str) -> dict[str, Any]:
         data["rotation"] = write(tube.rotation, "angle")
     if tube.rotation_compliance:
         data["rotation_compliance"] = write(tube.rotation_compliance, "torsional compliance")
+    if tube.translation_compliance:
+        data["translation_compliance"] = write(tube.translation_compliance, "compliance")
     if tube.limits is not None:
         data["limits"] = write_ranges(tube.limits, rotation="angle", translation="length")
     if tube.rotation_play:

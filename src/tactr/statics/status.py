@@ -107,9 +107,10 @@ def told_of_history(robot: Robot, driven: bool) -> str:
     rubbing += [t.name for t in robot.tubes if t.friction is not None and t.friction.coefficient > 0.0]
     loose = [t.name for t in robot.tendons if t.play]
     loose += [t.name for t in robot.tubes if t.rotation_play or t.translation_play]
+    giving = [t.name for t in robot.tubes if t.translation_compliance]
     left = [
         f"{what} of {', '.join(map(repr, names))}"
-        for what, names in (("friction", rubbing), ("backlash", loose))
+        for what, names in (("friction", rubbing), ("backlash", loose), ("give", giving))
         if names
     ]
     return f"; without the {' and the '.join(left)}, which tactr.drive follows" if left else ""
