@@ -39,6 +39,14 @@ def test_a_file(run, tmp_path):
     assert out.startswith("helical: 2 tubes, 1 tendon")
 
 
+def test_it_says_what_only_a_history_tells(run, tmp_path):
+    path = tmp_path / "robot.yaml"
+    text = examples.path("helical").read_text()
+    assert "without the" not in run("solve", "helical")[1]
+    path.write_text(text.replace("    length:", "    translation_compliance: 0.01 mm/N\n    length:", 1))
+    assert "without the give of 'outer', which tactr.drive follows" in run("solve", str(path))[1]
+
+
 def solved(run, *words):
     code, out, err = run("solve", *words, "--json")
     assert (code, err) == (0, "")

@@ -19,6 +19,8 @@ GAP = "   "
 
 def print_report(shape: Shape, written: Sequence[Path] = ()) -> None:
     """Print tip, tubes, tendons and how well the solve converged; written: the files that were made."""
+    from tactr.statics.status import told_of_history
+
     robot = shape.robot
     print(f"{_styled(robot.name or 'robot', BOLD)}: {_contents(robot)}\n")
     for table in (_tip(shape), _tubes(robot), _tendons(shape)):
@@ -32,6 +34,9 @@ def print_report(shape: Shape, written: Sequence[Path] = ()) -> None:
     if any(tendon.displacement is not None for tendon in robot.tendons):
         print(_pulled(shape))
     print(_stability(shape))
+    left_out = told_of_history(robot, driven=False).removeprefix("; ")
+    if left_out:
+        print(_styled(left_out, FAINT))
     if robot.assumed:
         remark = f"{_count(len(robot.assumed), 'value')} assumed, not given by the source: see tactr check"
         print(_styled(remark, FAINT))
