@@ -1,5 +1,7 @@
 """Shape and friction settle together where tendons run nearly straight or just bear what they held."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -83,5 +85,16 @@ def test_displacements_back_and_forth(friction, corners, cuts):
         tactr.solve(plain, tension=row).displacement for row in legs(corners, cuts)[:, None] * [3.0, 2.0, 1.0]
     ]
     driven = tactr.drive(curved_tubes(friction), {"displacement": np.array(pulls)})
+    assert driven.converged
+    assert max(shape.displacement_error for shape in driven) < 1e-7
+
+
+def test_displacements_from_a_cold_start_after_a_reversal():
+    """Next to a turning point no step from the point before is found: from cold, tensions may not leap either."""
+    robot = tactr.examples.load("three_tube_a")
+    rows = legs([0.0, 1.0, 0.3], 20)[:23, None] * np.array([t.tension for t in robot.tendons])
+    pulls = np.array([tactr.solve(robot, tension=row).displacement for row in rows])
+    rubbing = robot.replace(tendons=tuple(replace(t, friction=0.2) for t in robot.tendons))
+    driven = tactr.drive(rubbing, {"displacement": pulls})
     assert driven.converged
     assert max(shape.displacement_error for shape in driven) < 1e-7

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +33,8 @@ from tactr.statics.stability import is_stable_at_tensions
 MOST_ROUNDS = 45
 MOST_CHANGE = 0.3  # of a tension, from one round to the next
 LOW = 0.1  # of the largest tension: those below may change as if they were so large
+SLOW = 0.25  # of the gap before: lengths answer tensions in another way by now
+PATIENT = 8  # rounds; then that is looked at in every one
 AIM_SHARE = 0.1  # of what may be missing in a displacement
 
 
@@ -238,6 +241,8 @@ class _Rounds:
         self._tubes_before, self._rubbed = tubes, rubbed
         self._tension = passed.tension.copy()
         self._rotation, self._translation = passed.rotation, passed.translation
+        self._flexible: np.ndarray | None = None  # how gaps answered tensions when they were last looked at
+        self._gap = inf
 
     def run(self, solution: _core.Solution) -> Settled | None:
         rounds, pulls = self._rounds, self._pulls
@@ -263,7 +268,7 @@ class _Rounds:
         most = MOST_CHANGE * np.maximum(self._tension, LOW * self._tension.max(initial=0.0))
         change = tension - self._tension
         too_far = np.abs(change) > most
-        if not self._stay or self._pulls is None or not too_far.any() or not most.any():
+        if self._pulls is None or not too_far.any() or not most.any():
             return tension
         return self._tension + change * float((most[too_far] / np.abs(change[too_far])).min())
 
@@ -293,10 +298,12 @@ class _Rounds:
         pulled = Pulled(pulls, solution, missed, count, count)
         if float(missed.max(initial=0.0)) <= AIM_SHARE * pulls.tolerance:
             return pulled, None
-        tension = self._tension[pulls.index]
-        flexibility = self._flexibility(core, solution, pulls, count == 1)
+        tension, largest = self._tension[pulls.index], float(missed.max())
+        if self._flexible is None or count > PATIENT or largest > SLOW * self._gap:
+            self._flexible = self._flexibility(core, solution, pulls, count == 1)
+        self._gap = largest
         step = self._tension.copy()
-        step[pulls.index] = complementary_tension(flexibility, pulls.gap(solution), tension)
+        step[pulls.index] = complementary_tension(self._flexible, pulls.gap(solution), tension)
         return pulled, step
 
     def _flexibility(
