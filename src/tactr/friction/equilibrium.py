@@ -32,6 +32,7 @@ from tactr.statics.stability import is_stable_at_tensions
 
 MOST_ROUNDS = 45
 MOST_CHANGE = 0.3  # of a tension, from one round to the next
+MOST_GROWTH = 5.0  # of what they changed in the round before
 LOW = 0.1  # of the largest tension: those below may change as if they were so large
 SLOW = 0.25  # of the gap before: lengths answer tensions in another way by now
 PATIENT = 8  # rounds; then that is looked at in every one
@@ -125,28 +126,43 @@ class Equilibrium:
             return self._step(old, passed, near, past, limits)
         if pulls is None and not self.channels:
             return self._turn(passed, near, solution, tubes, stay, limits)
-        prepared = self._prepared
-        arrays = passed.tension, passed.rotation, passed.translation
-        rows = old.rows(self._index)
-        rounds = _core.FrictionRounds(
-            prepared._core, self.rows, rows, passed.flat, arrays[2], prepared.residual_tolerance
-        )
-        if near is None:
-            rounds.start_plain(solution)
-        else:
-            rounds.start_near(near.found, list(past))
         if pulls is None and not self._tubes_rub:
-            found = rounds.run(*arrays, *self._tolerances, solution, stay)
+            arrays = passed.tension, passed.rotation, passed.translation
+            found = self._rounds(old, passed, near, solution, past).run(
+                *arrays, *self._tolerances, solution, stay
+            )
             return None if found is None else Settled(found), 0.0
-        settled = _Rounds(self, rounds, passed, pulls, stay, tubes, None if near is None else near.tubes).run(
-            solution
-        )
+        rubbed, settled = None if near is None else near.tubes, None
+        for careful in (False, True) if pulls is not None and limits is None else (False,):
+            rounds = self._rounds(old, passed, near, solution, past)
+            settled = _Rounds(self, rounds, passed, pulls, stay, tubes, rubbed, careful).run(solution)
+            if settled is not None:
+                break
         if settled is None or near is None or limits is None:
             return settled, 0.0
         missed = _core.friction_history_missed(self.rows, near.found, settled.found, limits.missed)
         if missed > limits.missed:
             return None, missed
         return (settled, missed) if self._goes_on(near, settled, limits.turn) else (None, 0.0)
+
+    def _rounds(
+        self,
+        old: Profiles,
+        passed: Actuators,
+        near: Settled | None,
+        solution: _core.Solution,
+        past: Sequence[_core.FrictionSettled],
+    ) -> _core.FrictionRounds:
+        """From near, or from a shape without friction."""
+        prepared, rows = self._prepared, old.rows(self._index)
+        rounds = _core.FrictionRounds(
+            prepared._core, self.rows, rows, passed.flat, passed.translation, prepared.residual_tolerance
+        )
+        if near is None:
+            rounds.start_plain(solution)
+        else:
+            rounds.start_near(near.found, list(past))
+        return rounds
 
     def _step(
         self,
@@ -225,7 +241,8 @@ class Equilibrium:
 
 
 class _Rounds:
-    """With tendons pulled by displacements, or tubes that rub."""
+    """With tendons pulled by displacements, or tubes that rub. careful: tensions change by not much more than in
+    the round before, which takes more rounds, and fails less."""
 
     def __init__(
         self,
@@ -236,13 +253,16 @@ class _Rounds:
         stay: bool,
         tubes: TubeFrictionState | None,
         rubbed: Rubbed | None,
+        careful: bool,
     ) -> None:
         self._owner, self._rounds, self._pulls, self._stay = owner, rounds, pulls, stay
+        self._careful = careful
         self._tubes_before, self._rubbed = tubes, rubbed
         self._tension = passed.tension.copy()
         self._rotation, self._translation = passed.rotation, passed.translation
         self._flexible: np.ndarray | None = None  # how gaps answered tensions when they were last looked at
         self._gap = inf
+        self._moved = 0.0  # by how much tensions did in the round before, N
 
     def run(self, solution: _core.Solution) -> Settled | None:
         rounds, pulls = self._rounds, self._pulls
@@ -259,13 +279,17 @@ class _Rounds:
                 found = rounds.settled(core, solution)
                 return Settled(found, pulled, self._rubbed)
             tension = self._tension if step is None else self._nearer(step)
+            before = self._tension
             self._tension = self._nearer(rounds.mix(self._tension / scale, tension / scale) * scale)
+            self._moved = float(np.abs(self._tension - before).max(initial=0.0))
         return None
 
     def _nearer(self, tension: np.ndarray) -> np.ndarray:
-        """As far on the way to tensions as none changes by too much. After a reversal only what lies before a
-        front gives way: lengths hardly answer tensions, and Newton's step may lead anywhere."""
+        """As far on the way to tensions as none changes by too much. After a reversal only what lies before a front gives way: lengths hardly answer tensions, and
+        Newton's step may lead anywhere."""
         most = MOST_CHANGE * np.maximum(self._tension, LOW * self._tension.max(initial=0.0))
+        if self._careful and self._moved > 0.0:
+            most = np.minimum(most, MOST_GROWTH * self._moved)
         change = tension - self._tension
         too_far = np.abs(change) > most
         if self._pulls is None or not too_far.any() or not most.any():
