@@ -90,7 +90,7 @@ def test_displacements_back_and_forth(friction, corners, cuts):
 
 
 def test_displacements_from_a_cold_start_after_a_reversal():
-    """Next to a turning point no step from the point before is found: from cold, tensions may not leap either."""
+    """Next to a turning point no step from the point before is found; from cold, tensions may not leap."""
     robot = tactr.examples.load("three_tube_a")
     rows = legs([0.0, 1.0, 0.3], 20)[:23, None] * np.array([t.tension for t in robot.tendons])
     pulls = np.array([tactr.solve(robot, tension=row).displacement for row in rows])

@@ -241,7 +241,7 @@ class Equilibrium:
 
 
 class _Rounds:
-    """With tendons pulled by displacements, or tubes that rub. careful: tensions change by not much more than in
+    """With tendons pulled by displacements, or tubes that rub. careful: tensions change by little more than in
     the round before, which takes more rounds, and fails less."""
 
     def __init__(
@@ -285,8 +285,8 @@ class _Rounds:
         return None
 
     def _nearer(self, tension: np.ndarray) -> np.ndarray:
-        """As far on the way to tensions as none changes by too much. After a reversal only what lies before a front gives way: lengths hardly answer tensions, and
-        Newton's step may lead anywhere."""
+        """As far on the way to tensions as none changes by too much. After a reversal only what lies before a
+        front gives way: lengths hardly answer tensions, and Newton's step may lead anywhere."""
         most = MOST_CHANGE * np.maximum(self._tension, LOW * self._tension.max(initial=0.0))
         if self._careful and self._moved > 0.0:
             most = np.minimum(most, MOST_GROWTH * self._moved)

@@ -38,9 +38,9 @@ class Tube:
     in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
     (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. rotation_compliance:
     rad/(N m), at least 0, of a spring through which it is: the end turns less, by the torque that the
-    actuator holds times this. limits: how far its actuators go, if known. What counts in ``tactr.drive`` only, at least
-    0: translation_compliance, m/N, of a spring through which the translation is, and rotation_play, rad, and
-    translation_play, m, the whole backlash of its actuators. Raises RobotError.
+    actuator holds times this. limits: how far its actuators go, if known. What counts in ``tactr.drive``
+    only, at least 0: translation_compliance, m/N, of a spring through which the translation is, and
+    rotation_play, rad, and translation_play, m, the whole backlash of its actuators. Raises RobotError.
     """
 
     name: str
