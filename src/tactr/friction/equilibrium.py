@@ -241,7 +241,7 @@ class Equilibrium:
 
 
 class _Rounds:
-    """With tendons pulled by displacements, or tubes that rub. careful: tensions change by little more than in
+    """With tendons pulled by displacements, or tubes that rub. careful: tensions change little more than in
     the round before, which takes more rounds, and fails less."""
 
     def __init__(
