@@ -215,6 +215,17 @@ class March {
         }
     }
 
+    /// A load at its tube's proximal end, where the section leaves the tube: the actuator bears its moment, through a spring
+    /// if there is one, which it then turns.
+    void apply_at_base(int which, const Section<P>& section, const Section<P>* before) {
+        const PointLoadOf<C>& load = robot.point_loads[which];
+        if (slot_of(section, load.tube) < 0 || (before && slot_of(*before, load.tube) >= 0)) return;
+        T moment[3];
+        load_in_frame(load.moment, load.body_axes, &y[QUAT], y[PSI + load.tube], moment);
+        y[M3 + load.tube] += moment[2];
+        if (rubbing && value(robot.tubes[load.tube].rotation_compliance) > 0.0) rubbing->visit(which, y);
+    }
+
     /// Unit forces and moments along the world axes, as rates only; borne by the innermost tube.
     void apply_probe(const Section<P>& section) {
         const int tube = section.active[section.active_count - 1];
@@ -244,6 +255,7 @@ class March {
     void leave_section(int k_section) {
         const Section<P>& section = layout.sections[k_section];
         const Section<P>* before = k_section > 0 ? &layout.sections[k_section - 1] : nullptr;
+        for (int load : layout.loads_at_base) apply_at_base(load, section, before);
         for (int a = 0; a < section.active_count; ++a)
             if (!before || slot_of(*before, section.active[a]) < 0) base.psi[section.active[a]] = motor_angle(section, section.active[a]);
         if (section.guided || (before && !before->guided)) return;

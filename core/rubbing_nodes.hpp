@@ -66,8 +66,8 @@ struct RubbedNodes {
         for (size_t k = 0; k < count; ++k) {
             const RubbingNode& node = nodes[k];
             twist[k] = value(read.twist[k]);
+            if (!felt[k]) twist[k] = value(base.psi[node.inner]) - (node.outer < 0 ? 0.0 : value(base.psi[node.outer]));
             if (node.outer < 0) twist[k] += rotation[0] - value(base.psi[0]);
-            else if (!felt[k]) twist[k] = value(base.psi[node.inner]) - value(base.psi[node.outer]);
         }
         if constexpr (LaneCount<T>::value > 0) {
             rates.resize(count * lanes);

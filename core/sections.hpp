@@ -49,6 +49,7 @@ struct Layout {
     std::vector<Section<P>> sections;  // from base to tip
     std::vector<Hosted> hosted;
     std::vector<SectionLoad> point_loads, distributed_loads;
+    std::vector<int> loads_at_base;  // point loads at the proximal ends of their tubes
     int max_hosted = 0;
 };
 
@@ -121,6 +122,8 @@ class Cutter {
         Layout<P> layout;
         for (int l = 0; l < robot_.point_load_count; ++l)
             load_at_.push_back(breaks_.at(translation_[robot_.point_loads[l].tube] + robot_.point_loads[l].at));
+        for (int l = 0; l < robot_.point_load_count; ++l)
+            if (load_at_[l] == breaks_.at(translation_[robot_.point_loads[l].tube])) layout.loads_at_base.push_back(l);
         int first = breaks_.at(translation_[0]), last = 0;
         for (int i = 0; i < robot_.tube_count; ++i) {
             first = std::min(first, breaks_.at(translation_[i]));
@@ -281,6 +284,7 @@ Layout<D> at_rest(const Layout<double>& layout) {
     out.hosted = layout.hosted;
     out.point_loads = layout.point_loads;
     out.distributed_loads = layout.distributed_loads;
+    out.loads_at_base = layout.loads_at_base;
     out.max_hosted = layout.max_hosted;
     for (const Section<double>& from : layout.sections) {
         Section<D> to{D(from.proximal), D(from.distal), from.guided, from.even, from.winding, from.active_count, {}, {},

@@ -226,3 +226,20 @@ def test_sliding_along_wipes_the_torque_away() -> None:
 def test_a_plain_solve_says_what_it_leaves_out() -> None:
     assert "friction of 'outer', 'inner'" in tactr.solve(curved()).message
     assert "friction" not in turned(curved(), np.array([0.0]))[0].message
+
+
+def test_a_tube_clamped_at_the_exit_is_withdrawn_as_it_was_turned():
+    bent = Tube(
+        "bent",
+        length=0.1,
+        section=Annulus(2e-3, 1.5e-3),
+        material=materials.nitinol,
+        precurvature=(5.0, 0.0, 0.0),
+        friction=0.2,
+    )
+    robot = Robot([bent], [], [PointLoad("bent", force=(0.3, 0.0, 0.0))])
+    driven = tactr.drive(robot, {"rotation": [[0.0], [1.0], [1.0]], "translation": [[0.0], [0.0], [-1e-7]]})
+    twists = [float(state.rubbing.contact("bent").twist[0]) for state in driven.states]
+    assert twists == pytest.approx([0.0, 1.0, 1.0], abs=1e-6)
+    after = driven.state.rubbing.contact("bent")
+    assert abs(after.torque[0]) < 1e-2 * after.limit[0]  # it slid along only

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tactr
-from tactr import Annulus, Gravity, Helix, Robot, Straight, Tendon, Tube, materials
+from tactr import Annulus, Gravity, Helix, PointLoad, Robot, Straight, Tendon, Tube, materials
 
 SPRINGS = {"outer": 0.8, "inner": 3.0}  # rad/(N m)
 TRANSLATION = {"outer": -0.02, "inner": -0.05}
@@ -83,3 +83,51 @@ def test_motors_work_is_stored_in_tubes_and_springs():
     assert work.total == pytest.approx(work.stored, rel=1e-4)
     springs = work.stored - (shapes[-1].energy - shapes[0].energy)
     assert springs > 0.05 * work.stored
+
+
+@pytest.mark.parametrize("behind", [0.0, 0.03])
+def test_a_moment_at_the_proximal_end_turns_the_spring(behind):
+    more = 2.0 * torsional_stiffness("outer")
+    shapes = []
+    for extra, compliance in ((0.0, 2.0), (more, 0.0)):
+        tube = Tube(
+            "outer",
+            length=0.1 + behind + extra,
+            section=SECTION["outer"],
+            material=materials.nitinol,
+            precurvature=[(0.0, (0.0, 0.0, 0.0)), (0.05 + behind + extra, (8.0, 0.0, 0.0))],
+            translation=-behind - extra,
+            rotation_compliance=compliance,
+        )
+        load = PointLoad("outer", moment=(0.0, 0.0, 0.2), axes="body", at=extra)
+        shapes.append(tactr.solve(Robot([tube], [], [load])))
+    assert shapes[0].actuator_forces.torque == pytest.approx([-0.2], abs=1e-12)
+    assert shapes[0].tip_position == pytest.approx(shapes[1].tip_position, abs=2e-8)
+
+
+@pytest.mark.parametrize("springs", [{"outer": 1.5, "inner": 3.0}, {"outer": 0.0, "inner": 3.0}])
+def test_friction_at_the_exit_turns_springs_there(springs):
+    tips, heats = [], []
+    for as_springs in (True, False):
+        made = []
+        for name, compliance in springs.items():
+            more = 0.0 if as_springs else compliance * torsional_stiffness(name)
+            tube = Tube(
+                name,
+                length=LENGTH[name] + more,
+                section=SECTION[name],
+                material=materials.nitinol,
+                precurvature=[(0.0, (0.0, 0.0, 0.0)), (CURVED_FROM[name] + more, CURVATURE[name])],
+                translation=-more,
+                rotation_compliance=compliance if as_springs else 0.0,
+                friction=0.2,
+            )
+            made.append(tube)
+        robot = Robot(made, [], [PointLoad("inner", force=(0.3, 0.2, 0.0))])
+        turns = 1.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 21))
+        driven = tactr.drive(robot, {"rotation": np.stack([0.3 * turns, turns], axis=1)})
+        assert driven.converged
+        tips.append(driven.tips)
+        heats.append(driven.tube_heat.sum(axis=0))
+    assert tips[0] == pytest.approx(tips[1], abs=1e-7)
+    assert heats[0] == pytest.approx(heats[1], rel=1e-5, abs=1e-12)
