@@ -31,7 +31,6 @@ TENDONS = {
 
 
 def lone_tube(tendons, precurvature, loads=()):
-    section = Annulus(2e-3, 1.6e-3)
     tube = Tube("tube", length=0.2, section=SECTION, material=SOFT, rotation=0.7, precurvature=precurvature)
     return Robot([tube], tendons, loads)
 

@@ -17,7 +17,6 @@ from tactr.robot.section import Section, Stiffness
 from tactr.robot.stretch import Stretch, stretches_of
 from tactr.robot.tube_friction import TubeFriction, plain_tube_friction
 
-
 AT_LEAST_ZERO = {"rotation_compliance": "rad/(N m)", "rotation_play": "rad", "translation_play": "m"}
 
 
@@ -33,9 +32,10 @@ class Tube:
     and rest shear and stretch. Pieces hold from ``start`` on, where start is the tube's own arc length sigma
     in m from its proximal end and the first start is 0. translation: m, the z of the proximal end, at most 0
     (0: at the guide's exit, s = 0). rotation: rad about +z, imposed at the proximal end. rotation_compliance:
-    rad/(N m), at least 0, of a spring through which it is: the end turns by the torque that the actuator holds
-    times this less. limits: how far its actuators go, if known. rotation_play: rad, translation_play: m, at
-    least 0: the whole backlash of its actuators, which counts in ``tactr.drive`` only. Raises RobotError.
+    rad/(N m), at least 0, of a spring through which it is: the end turns by the torque that the actuator
+    holds times this less. limits: how far its actuators go, if known. rotation_play: rad, translation_play:
+    m, at least 0: the whole backlash of its actuators, which counts in ``tactr.drive`` only. Raises
+    RobotError.
     """
 
     name: str

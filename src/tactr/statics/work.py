@@ -17,8 +17,8 @@ class Work:
     """Work of the actuators along a path of shapes, and what became of it, J.
 
     tension (tendons,), by shortening them; rotation, translation (tubes,); stored: rise of strain energy,
-    load potential and the energy of springs at the tubes from the first shape to the last. In exact equilibrium along the whole path total equals
-    stored; a path that snaps gives up imbalance.
+    load potential and the energy of springs at the tubes from the first shape to the last. In exact
+    equilibrium along the whole path total equals stored; a path that snaps gives up imbalance.
     """
 
     tension: np.ndarray
