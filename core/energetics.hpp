@@ -68,8 +68,8 @@ struct EnergyMarch {
     }
 };
 
-/// Strain energy, that of springs at the tubes, that of the tendons' pull (tension times length) and of dead forces, J; the largest double where the
-/// march fails. Moments and loads in body axes have no potential and are left out.
+/// Strain energy, that of springs at the tubes, that of the tendons' pull (tension times length) and of dead forces, J; the
+/// largest double where the march fails. Moments and loads in body axes have no potential and are left out.
 inline double potential_energy(const Robot& robot, const Solution& solution) {
     EnergyMarch pass(robot, solution);
     if (!pass.run(solution)) return std::numeric_limits<double>::max();

@@ -171,7 +171,8 @@ class Shape(Mechanics, Derivatives, Pulling):
 
     @cached_property
     def potential_energy(self) -> float:
-        """Potential energy, J: of the tubes, of every tendon (tension times length) and of dead forces.
+        """Potential energy, J: of the tubes and the springs that turn them, of every tendon (tension times
+        length) and of dead forces.
 
         Its zero is the robot with unstrained tubes and no tendons, the forces at the guide's exit. Moments
         and loads in body axes have no potential and do not count.
