@@ -366,7 +366,6 @@ nb::dict friction_step(const PreparedRobot& robot, const Vector& tension, const 
     out["torque"] = vector_of(found->torque.data(), found->torque.size());
     out["twist"] = vector_of(found->twist.data(), found->twist.size());
     out["limit"] = vector_of(found->limit.data(), found->limit.size());
-    out["pressing"] = vector_of(found->pressing.data(), found->pressing.size());
     out["slides"] = vector_of(found->slides.data(), found->slides.size());
     out["heat"] = vector_of(found->heat.data(), found->heat.size());
     const Shape square{list.size(), found->compliance.size() / (list.empty() ? 1 : list.size())};

@@ -174,5 +174,8 @@ def _held(nodes: np.ndarray, found: dict[str, np.ndarray]) -> int:
     (Haynsworth's inertia formula for the bordered matrix)."""
     holds = (found["slides"] == 0.0) & (found["limit"] > 0.0) & (found["felt"] != 0.0)
     holds &= nodes[:, SLIDE] == 0.0
-    among = found["compliance"][np.ix_(holds, holds)]
-    return int((np.linalg.eigvalsh(0.5 * (among + among.T)) < 0.0).sum()) if holds.any() else 0
+    compliance = found["compliance"]
+    if not holds.any() or compliance.shape[1] != len(nodes):  # not known: they count as none
+        return 0
+    among = compliance[np.ix_(holds, holds)]
+    return int((np.linalg.eigvalsh(0.5 * (among + among.T)) < 0.0).sum())
