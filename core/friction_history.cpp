@@ -178,7 +178,8 @@ FrictionHistory::Course::Course(const Wrap& wrap) : bend{}, kink{} {
     }
 }
 
-FrictionHistory::FrictionHistory(const std::vector<FrictionChannel>& channels, const FrictionSettled& before) : channels_(channels) {
+FrictionHistory::FrictionHistory(const std::vector<FrictionChannel>& channels, const FrictionSettled& before)
+    : channels_(channels), local_(before.robot.tubes.size() == 1) {
     for (size_t c = 0; c < channels.size(); ++c) {
         const auto& profile = before.profiles[c];
         const double end = channels[c].end;
@@ -196,7 +197,7 @@ double FrictionHistory::missed(const std::vector<Wrap>& wraps, const std::vector
         if (pull > 0.0) ways.emplace_back(starts_[c], wraps[c], pull);
     }
     const double linearly = missed_linearly(ways);
-    return linearly > enough ? smaller(linearly, ByTension(ways).missed()) : linearly;
+    return local_ && linearly > enough ? smaller(linearly, ByTension(ways).missed()) : linearly;
 }
 
 }  // namespace tactr

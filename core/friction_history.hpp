@@ -7,8 +7,9 @@
 namespace tactr {
 
 /// What one step from an equilibrium misses. The cone between the ends is estimated from curvatures of the tendons' paths and
-/// tensions at the base that change linearly. That may say too much: curvatures change as the tensions there do, which wait
-/// until a front comes by. Where it matters they are followed in this way.
+/// tensions at the base that change linearly. Of a lone tube that may say too much: curvatures change as the tensions there do,
+/// which wait until a front comes by. Where it matters they are followed in this way. Several tubes twist each other, which
+/// changes curvature elsewhere: tensions at the place then say too little.
 class FrictionHistory {
   public:
     static constexpr int LOOKS = 65;  // places along a tendon
@@ -37,6 +38,7 @@ class FrictionHistory {
 
   private:
     const std::vector<FrictionChannel>& channels_;
+    const bool local_;  // one tube: its curvature follows the tensions at its place
     std::vector<Start> starts_;
 };
 
