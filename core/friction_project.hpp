@@ -67,15 +67,46 @@ class FrictionWalk {
     /// is left wherever it is beyond the cone by more than noise.
     FrictionWalk(const Curve& old, const Wrap& wrap, double y0, double precision, bool strict = false, bool left_before = false)
         : left(left_before), noise_(NOISE * precision), most_beyond_(strict && left ? noise_ : MOST_BEYOND * precision), strict_(strict),
-          old_(old), wrap_(wrap), y_(y0) {}
-
-    /// joints: where a sliding profile is cut.
-    FrictionProfile profile(const std::vector<double>& joints) {
+          precision_(precision), old_(old), wrap_(wrap), y_(y0) {
         std::vector<double> all = old_.edges;
         all.insert(all.end(), wrap_.rise.edges.begin(), wrap_.rise.edges.end());
         const std::vector<double> cells = merged(all);
         for (size_t k = 0; k + 1 < cells.size(); ++k) cross(cells[k], cells[k + 1]);
-        return pieces(joints);
+        drop_slivers(wrap_.rise.edges.back());
+    }
+
+    /// Where it begins to slide or to be stuck.
+    std::vector<double> fronts() const {
+        std::vector<double> out;
+        for (const Run& run : runs_) out.push_back(run.start);
+        return out;
+    }
+
+    /// Runs as polynomials: cut at joints and cusps where it slides, at the old edges where it is stuck. others: fronts of other
+    /// tendons, at which a sliding piece is cut, too, where one polynomial does not follow it across them.
+    FrictionProfile profile(const std::vector<double>& joints, const std::vector<double>& others) const {
+        std::vector<double> cuts = joints;
+        if (!wrap_.cusps.empty()) {
+            cuts.insert(cuts.end(), wrap_.cusps.begin(), wrap_.cusps.end());
+            cuts = merged(std::move(cuts));
+        }
+        FrictionProfile out;
+        out.log.edges.push_back(runs_.front().start);
+        for (size_t k = 0; k < runs_.size(); ++k) {
+            const Run& run = runs_[k];
+            const double stop = k + 1 < runs_.size() ? runs_[k + 1].start : joints.back();
+            if (stop - run.start <= EDGE_GAP) continue;
+            for (double edge : edges_between(run.start, stop, run.slide != 0 ? cuts : old_.edges)) {
+                const double start = out.log.edges.back();
+                const PointValues whole = piece(run, start, edge);
+                if (run.slide == 0 || follows(run, start, edge, whole)) {
+                    add(run, edge, whole, out);
+                    continue;
+                }
+                for (double part : edges_between(start, edge, others)) add(run, part, piece(run, out.log.edges.back(), part), out);
+            }
+        }
+        return out;
     }
 
   private:
@@ -92,6 +123,7 @@ class FrictionWalk {
 
     const double noise_, most_beyond_;
     const bool strict_;
+    const double precision_;
     const Curve& old_;
     const Wrap& wrap_;
     std::vector<Run> runs_;
@@ -265,33 +297,35 @@ class FrictionWalk {
         }
     }
 
-    /// Runs as polynomials: cut at joints and cusps where it slides, at the old edges where it is stuck.
-    FrictionProfile pieces(const std::vector<double>& joints) {
-        drop_slivers(joints.back());
-        std::vector<double> cuts = joints;
-        if (!wrap_.cusps.empty()) {
-            cuts.insert(cuts.end(), wrap_.cusps.begin(), wrap_.cusps.end());
-            cuts = merged(std::move(cuts));
-        }
-        FrictionProfile out;
-        out.log.edges.push_back(runs_.front().start);
-        for (size_t k = 0; k < runs_.size(); ++k) {
-            const Run& run = runs_[k];
-            const double stop = k + 1 < runs_.size() ? runs_[k + 1].start : joints.back();
-            if (stop - run.start <= EDGE_GAP) continue;
-            std::vector<double> edges{run.start};
-            for (double cut : run.slide != 0 ? cuts : old_.edges)
-                if (cut > run.start + EDGE_GAP && cut < stop - EDGE_GAP) edges.push_back(cut);
-            edges.push_back(stop);
-            for (size_t i = 0; i + 1 < edges.size(); ++i) {
-                out.log.edges.push_back(edges[i + 1]);
-                out.log.coefficients.push_back(piece(run, edges[i], edges[i + 1]));
-                out.slides.push_back(run.slide);
-                out.driven.push_back(run.driven);
-            }
-        }
+    /// Those inside, ascending, and the end.
+    static std::vector<double> edges_between(double start, double end, const std::vector<double>& all) {
+        std::vector<double> out;
+        for (double edge : all)
+            if (edge > (out.empty() ? start : out.back()) + EDGE_GAP && edge < end - EDGE_GAP) out.push_back(edge);
+        out.push_back(end);
         return out;
     }
+
+    static void add(const Run& run, double edge, const PointValues& coefficients, FrictionProfile& out) {
+        out.log.edges.push_back(edge);
+        out.log.coefficients.push_back(coefficients);
+        out.slides.push_back(run.slide);
+        out.driven.push_back(run.driven);
+    }
+
+    /// Whether a sliding piece is what it should be at its ends: there polynomials are furthest off, and from a front that moves
+    /// on, what they are off is passed on to all beyond it, step by step.
+    bool follows(const Run& run, double a, double b, const PointValues& c) const {
+        if (wrap_.straight) return true;
+        const double base = base_of(run);
+        const auto off = [&](double x, double sigma) {
+            return std::fabs(chebyshev_at(c, x) - (run.y + run.slide * (wrap_.rise.at(sigma) - base)));
+        };
+        return off(-1.0, a + 1e-12) <= precision_ && off(1.0, b - 1e-12) <= precision_;
+    }
+
+    /// The rise where a run starts.
+    double base_of(const Run& run) const { return wrap_.rise.on(wrap_.rise.piece(run.start + 1e-12), run.start); }
 
     PointValues piece(const Run& run, double a, double b) const {
         if (run.slide != 0 && wrap_.straight) return Curve::constant(run.y, b).coefficients[0];
@@ -301,7 +335,7 @@ class FrictionWalk {
             if (old_.is_even(k) || (old_.edges[k] == a && old_.edges[k + 1] == b)) return old_.coefficients[k];
             y = old_.on(k, y);
         } else {
-            const double base = wrap_.rise.on(wrap_.rise.piece(run.start + 1e-12), run.start);
+            const double base = base_of(run);
             y = wrap_.rise.at(y);
             for (double& at : y) at = run.y + run.slide * (at - base);
         }

@@ -108,15 +108,26 @@ void FrictionRounds::start(const FrictionSettled& near, const std::vector<const 
 
 void FrictionRounds::profile(const std::vector<double>& tension) {
     robot.profiles.clear();
+    std::vector<Curve> none;
+    none.reserve(channels_.size());
+    std::vector<std::optional<FrictionWalk>> walks(channels_.size());
+    std::vector<double> fronts;  // s, of all channels
     for (size_t c = 0; c < channels_.size(); ++c) {
-        const double pull = tension[channels_[c].tendon];
+        const double pull = tension[channels_[c].tendon], base = translation_[channels_[c].tube];
         last_edges_[c] = profiles[c] ? profiles[c]->log.edges : std::vector<double>{};
         profiles[c].reset();
         if (!(pull > 0.0)) continue;
-        const Curve none = Curve::constant(NO_TENSION, channels_[c].end);
-        FrictionWalk walk(old_[c] ? *old_[c] : none, wraps_[c], std::log(pull), precision_, rounds >= PATIENT, left_[c]);
-        profiles[c] = walk.profile(joints_[c]);
-        left_[c] = walk.left;
+        none.push_back(Curve::constant(NO_TENSION, channels_[c].end));
+        walks[c].emplace(old_[c] ? *old_[c] : none.back(), wraps_[c], std::log(pull), precision_, rounds >= PATIENT, left_[c]);
+        left_[c] = walks[c]->left;
+        for (double front : walks[c]->fronts()) fronts.push_back(base + front);
+    }
+    std::sort(fronts.begin(), fronts.end());
+    for (size_t c = 0; c < channels_.size(); ++c) {
+        if (!walks[c]) continue;
+        std::vector<double> others = fronts;
+        for (double& s : others) s -= translation_[channels_[c].tube];
+        profiles[c] = walks[c]->profile(joints_[c], others);
     }
     size_t c = 0;
     for (size_t j = 0; j < robot.tendons.size(); ++j) {

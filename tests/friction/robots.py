@@ -37,6 +37,28 @@ def rubbing_tubes(friction: float, disks: int | None):
     return robot.replace(tendons=tuple(tendons))
 
 
+def two_curved_tubes():
+    """With two tendons on the inner one, whose fronts come by near to each other on the way back."""
+    tubes = [
+        _curved("outer", 0.12, Annulus(1.39e-3, 1.08e-3), 81e9, 0.4, (0.0, (4.3, -1.4, 0.0))),
+        _curved("inner", 0.24, Annulus(1.03e-3, 0.68e-3), 49e9, 2.3, (0.0, (-4.0, 1.0, 0.0))),
+    ]
+    tendons = [
+        Tendon("strong", "inner", Straight(3.0e-3, -2.0e-3), friction=0.48),
+        Tendon("weak", "inner", Straight(-1.6e-3, -3.0e-3), friction=0.48),
+    ]
+    return Robot(tubes, tendons)
+
+
+def _curved(name, length, section, modulus, rotation, last):
+    """Of a tube: straight, but from a place on."""
+    pieces = (last,) if last[0] == 0.0 else ((0.0, STRAIGHT), last)
+    material = Material(E=modulus, nu=0.33)
+    return Tube(
+        name, length=length, section=section, material=material, precurvature=pieces, rotation=rotation
+    )
+
+
 def legs(corners, cuts):
     """Along corners, every way cut into so many."""
     parts = [np.linspace(a, b, cuts + 1)[1:] for a, b in pairwise(corners)]

@@ -18,7 +18,7 @@ from tactr.friction.equilibrium import Equilibrium
 from tactr.friction.profiles import FoundProfiles
 from tactr.statics.solve import Prepared
 
-from .robots import SOFT, bending, legs, pulled, rubbing_tubes
+from .robots import SOFT, bending, legs, pulled, rubbing_tubes, two_curved_tubes
 
 
 @pytest.mark.parametrize("actuation", ["tension", "displacement"])
@@ -77,6 +77,18 @@ def test_half_the_steps_of_several_tendons(disks, corners, least):
     ]
     assert tips[1] == pytest.approx(tips[0], abs=least)
     assert tips[2] == pytest.approx(tips[1], abs=least)
+
+
+def test_what_many_steps_are_off_does_not_add_up():
+    """The front of one tendon moves on in small steps; beyond it, it slides across the front of the other."""
+    robot, full = two_curved_tubes(), np.array([10.6, 1.9])
+    state = tactr.drive(robot, {"tension": legs((0.0, 1.0), 20)[:, None] * full}).state
+    state = tactr.drive(robot, {"tension": legs((1.0, 0.64), 12)[:, None] * full}, state=state).state
+    tips = [
+        tactr.drive(robot, {"tension": legs((0.64, 0.61), n)[1:, None] * full}, state=state).tips[-1]
+        for n in (16, 64)
+    ]
+    assert tips[1] == pytest.approx(tips[0], abs=1e-6)
 
 
 def test_one_tube_needs_no_cuts_on_its_way_back():
