@@ -262,7 +262,7 @@ void bind_friction(nb::module_& m) {
           "residual_tolerance"_a, "cuts"_a,
           "Points that were reached: equilibrium, steps, heat and creep, seconds; what was found last, the latest first; stride.");
     m.def("friction_history_missed", [](const Channels& channels, const FrictionSettled& before, const FrictionSettled& after, double enough) {
-        return FrictionHistory(channels.list, before).missed(after.wraps, after.solution.tension, enough);
+        return missed_of_history(channels.list, before, after.wraps, after.profiles, after.solution.tension, enough);
     }, "channels"_a, "before"_a, "after"_a, "enough"_a, "What one step misses of log tension that small ones would have seen.");
 }
 

@@ -244,7 +244,7 @@ bool FrictionRounds::run(const Settings& settings, const Solution& blank, const 
         const auto too_long = [&] {  // for all that the wraps may still change
             if (looked || !(missed <= LOOK_BELOW * limit.most)) return false;
             looked = true;
-            history_missed = FrictionHistory(channels_, *limit.near).missed(after_, tension, limit.most);
+            history_missed = missed_of_history(channels_, *limit.near, after_, profiles, tension, limit.most);
             return history_missed > limit.most + 2.0 * missed;
         };
         const bool seen = !channels_.empty() && glance(newton, from, near);

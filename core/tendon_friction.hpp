@@ -9,7 +9,7 @@
 
 namespace tactr {
 
-/// A step is given up where it misses more of its history since the equilibrium near by: see FrictionHistory.
+/// A step is given up where it misses more of its history since the equilibrium near by: see missed_of_history.
 struct HistoryLimit {
     const FrictionSettled* near = nullptr;  // none: no limit
     double most = 0.0;                      // of log tension

@@ -37,6 +37,21 @@ def rubbing_tubes(friction: float, disks: int | None):
     return robot.replace(tendons=tuple(tendons))
 
 
+def twisting_tubes():
+    """Three curved tubes that tendons twist: that changes paths where no tension changes."""
+    tubes = [
+        _curved("outer", 0.125, Annulus(1.39e-3, 1.08e-3), 81e9, 0.41, (0.0, (4.28, -1.42, 0.0))),
+        _curved("middle", 0.244, Annulus(1.03e-3, 0.68e-3), 49e9, 2.31, (0.178, (4.0, -1.03, 0.0))),
+        _curved("inner", 0.297, Annulus(0.63e-3, 0.35e-3), 61e9, -1.35, (0.0, (-3.81, 2.37, -1.29))),
+    ]
+    tendons = [
+        Tendon("near", "outer", Straight(-0.3e-3, -5.9e-3), end=0.06, friction=0.48),
+        Tendon("strong", "middle", Straight(3.0e-3, -2.05e-3), end=0.225, friction=0.48),
+        Tendon("weak", "middle", Straight(-1.6e-3, -3.0e-3), friction=0.48),
+    ]
+    return Robot(tubes, tendons)
+
+
 def two_curved_tubes():
     """With two tendons on the inner one, whose fronts come by near to each other on the way back."""
     tubes = [

@@ -18,7 +18,7 @@ from tactr.friction.equilibrium import Equilibrium
 from tactr.friction.profiles import FoundProfiles
 from tactr.statics.solve import Prepared
 
-from .robots import SOFT, bending, legs, pulled, rubbing_tubes, two_curved_tubes
+from .robots import SOFT, bending, legs, pulled, rubbing_tubes, twisting_tubes, two_curved_tubes
 
 
 @pytest.mark.parametrize("actuation", ["tension", "displacement"])
@@ -77,6 +77,16 @@ def test_half_the_steps_of_several_tendons(disks, corners, least):
     ]
     assert tips[1] == pytest.approx(tips[0], abs=least)
     assert tips[2] == pytest.approx(tips[1], abs=least)
+
+
+def test_half_the_steps_of_tubes_that_twist():
+    """Torsion changes curvature ahead of the fronts, where no tension changes."""
+    robot = twisting_tubes()
+    tips = [
+        tactr.drive(robot, {"tension": legs((0.0, 1.0, 0.7), n)[:, None] * [1.1, 10.6, 1.9]}).tips[:: n // 10]
+        for n in (10, 20)
+    ]
+    assert tips[1] == pytest.approx(tips[0], abs=1e-5)
 
 
 def test_what_many_steps_are_off_does_not_add_up():

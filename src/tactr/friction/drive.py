@@ -29,7 +29,8 @@ from tactr.statics.rest import pulls_from
 from tactr.statics.shape import Shape
 from tactr.statics.solve import Prepared
 
-LIMITS = Limits(missed=1e-4, turn=0.3)
+MISSED = 1.5e-5  # m, over the length: log tension that one step may miss moves the tip by about as much
+TURN = 0.3  # rad, by which one step may turn the free end
 SHORTEST_STEP = 1.0 / 32  # of the way between two points
 CAREFUL = 0.9  # of the longest step
 AT_ONCE = 64  # points between which nobody is told of progress
@@ -88,6 +89,7 @@ class _Driver:
         profiled = any(isinstance(t.tension, TensionProfile) for t in self._robot.tendons)
         self._all_by_tension = not (profiled or self._any_pulled)
         self._equilibrium = Equilibrium(prepared)
+        self._limits = Limits(missed=MISSED / max(tube.length for tube in self._robot.tubes), turn=TURN)
         self._near: Settled | None = None
         self._past: tuple[_core.FrictionSettled, ...] = ()  # what was found before that, the latest first
         self._stride = inf  # how far a step may be expected to get
@@ -117,7 +119,7 @@ class _Driver:
             [self._near.found, *self._past],
             self._stride,
             self._numbers[first : first + AT_ONCE],
-            (LIMITS.missed, LIMITS.turn, SHORTEST_STEP, CAREFUL, STRETCH),
+            (self._limits.missed, self._limits.turn, SHORTEST_STEP, CAREFUL, STRETCH),
         )
         reached, still = [], np.zeros(len(self._robot.tubes))
         for given, (found, steps, heats, creeps, seconds) in zip(
@@ -208,7 +210,7 @@ class _Driver:
             settled, missed = self._settle(ahead, state, cold=False, halves=halves)
             if settled is None:
                 if halves:
-                    step *= min(0.5, max(0.1, _of_step(missed)))
+                    step *= min(0.5, max(0.1, self._of_step(missed)))
                     continue
                 settled, snaps = self._settle(ahead, state, cold=True)[0], True  # the branch is lost
                 if settled is None:
@@ -223,7 +225,7 @@ class _Driver:
             state = self._taken(settled, ahead, state)
             if snaps:
                 self._past = ()
-            done, count, step = to, count + 1, step * min(4.0, _of_step(missed))
+            done, count, step = to, count + 1, step * min(4.0, self._of_step(missed))
         if way > 0.0:
             self._stride = step * way
         return state, count
@@ -287,9 +289,13 @@ class _Driver:
             near.solution,
             past=self._past,
             stay=True,
-            limits=LIMITS if halves else None,
+            limits=self._limits if halves else None,
             tubes=state.rubbing,
         )
+
+    def _of_step(self, missed: float) -> float:
+        """How much longer a step may be than one that missed so much of its history; inf: not known."""
+        return CAREFUL * sqrt(self._limits.missed / missed) if missed > 0.0 else inf
 
     def _state(self, found: _core.FrictionSettled, given: Actuators) -> DriveState:
         """Without plays and tubes that rub."""
@@ -332,8 +338,3 @@ class _Driver:
         if shape.converged:
             return "shape and friction did not settle together; the shape given is that without friction"
         return shape.message
-
-
-def _of_step(missed: float) -> float:
-    """How much longer a step may be than one that missed so much of its history; inf: not known."""
-    return CAREFUL * sqrt(LIMITS.missed / missed) if missed > 0.0 else inf
