@@ -98,3 +98,13 @@ def test_displacements_from_a_cold_start_after_a_reversal():
     driven = tactr.drive(rubbing, {"displacement": pulls})
     assert driven.converged
     assert max(shape.displacement_error for shape in driven) < 1e-7
+
+
+@pytest.mark.parametrize("cuts", [5, 10])
+def test_displacements_with_much_friction(cuts):
+    """Next to a turning point the shortest step may not be found, but the rest of the way is."""
+    robot = tactr.examples.load("three_tube_a")
+    rows = legs([0.0, 1.0, 0.3], cuts)[: cuts + 2, None] * np.array([t.tension for t in robot.tendons])
+    pulls = np.array([tactr.solve(robot, tension=row).displacement for row in rows])
+    rubbing = robot.replace(tendons=tuple(replace(t, friction=0.4) for t in robot.tendons))
+    assert tactr.drive(rubbing, {"displacement": pulls}).converged

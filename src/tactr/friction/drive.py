@@ -213,6 +213,9 @@ class _Driver:
                     step *= min(0.5, max(0.1, self._of_step(missed)))
                     continue
                 settled, snaps = self._settle(ahead, state, cold=True)[0], True  # the branch is lost
+                if settled is None and to < 1.0:  # from further away it may be found
+                    to, ahead = 1.0, point
+                    settled, snaps = self._settle(point, state, cold=False)[0], False
                 if settled is None:
                     self._near = None
                     return state, 0
