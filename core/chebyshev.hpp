@@ -97,22 +97,20 @@ inline double chebyshev_at(const PointValues& c, double x) {
     return (c[0] - b2) + x * b1;
 }
 
-/// The same at many x, side by side.
-template <size_t M>
-std::array<double, M> chebyshev_at(const PointValues& c, std::array<double, M> x) {
+/// The same at many x, side by side; out may be x.
+inline void chebyshev_at(const PointValues& c, const double* x, size_t count, double* out) {
     constexpr size_t WIDTH = 8;
-    for (size_t first = 0; first < M; first += WIDTH) {
+    for (size_t first = 0; first < count; first += WIDTH) {
         double at[WIDTH], b1[WIDTH] = {}, b2[WIDTH] = {};
-        for (size_t i = 0; i < WIDTH; ++i) at[i] = std::min(std::max(x[std::min(first + i, M - 1)], -1.0), 1.0);
+        for (size_t i = 0; i < WIDTH; ++i) at[i] = std::min(std::max(x[std::min(first + i, count - 1)], -1.0), 1.0);
         for (int k = CURVE_POINTS - 1; k > 0; --k)
             for (size_t i = 0; i < WIDTH; ++i) {
                 const double b = (c[k] - b2[i]) + 2.0 * at[i] * b1[i];
                 b2[i] = b1[i];
                 b1[i] = b;
             }
-        for (size_t i = 0; i < WIDTH && first + i < M; ++i) x[first + i] = (c[0] - b2[i]) + at[i] * b1[i];
+        for (size_t i = 0; i < WIDTH && first + i < count; ++i) out[first + i] = (c[0] - b2[i]) + at[i] * b1[i];
     }
-    return x;
 }
 
 /// Smooth between its edges (one more than pieces, ascending), where it may jump.
@@ -135,7 +133,8 @@ struct Curve {
     template <size_t M>
     std::array<double, M> on(int k, std::array<double, M> sigma) const {
         for (double& x : sigma) x = (2.0 * x - (edges[k] + edges[k + 1])) / (edges[k + 1] - edges[k]);
-        return chebyshev_at(coefficients[k], sigma);
+        chebyshev_at(coefficients[k], sigma.data(), M, sigma.data());
+        return sigma;
     }
 
     /// At ascending places.

@@ -9,26 +9,10 @@ namespace {
 
 constexpr int EVENLY = 32;  // places along a channel
 
-/// Values at places (count,) within a piece from start on, by Clenshaw's rule for all at once; room: for 3 numbers each.
-void chebyshev_at_all(const PointValues& c, double start, double half, const double* places, size_t count, double* room, double* out) {
-    double *x = room, *b1 = room + count, *b2 = room + 2 * count;
-    for (size_t i = 0; i < count; ++i) {
-        x[i] = smaller((places[i] - start) / half - 1.0, 1.0);
-        b1[i] = b2[i] = 0.0;
-    }
-    for (int k = CURVE_POINTS - 1; k > 0; --k)
-        for (size_t i = 0; i < count; ++i) {
-            const double b = c[k] + 2.0 * x[i] * b1[i] - b2[i];
-            b2[i] = b1[i];
-            b1[i] = b;
-        }
-    for (size_t i = 0; i < count; ++i) out[i] = c[0] + x[i] * b1[i] - b2[i];
-}
-
 /// Of the path from every place (ascending) to the tendon's end, m.
 std::vector<double> lengths_beyond(const Wrap& wrap, const std::vector<double>& places) {
     const ChebyshevRules& rules = ChebyshevRules::get();
-    std::vector<double> out(places.size()), room(3 * places.size());
+    std::vector<double> out(places.size());
     double beyond = 0.0;  // from the panel's proximal end on
     size_t last = places.size();
     for (size_t k = wrap.rate.size(); k-- > 0;) {
@@ -40,7 +24,8 @@ std::vector<double> lengths_beyond(const Wrap& wrap, const std::vector<double>& 
         if (inside < last && places[inside] <= start + EDGE_GAP) out[inside++] = beyond;
         if (inside < last) {
             const PointValues upto = ChebyshevRules::times(rules.integral, wrap.rate[k]);
-            chebyshev_at_all(upto, start, half, &places[inside], last - inside, room.data(), &out[inside]);
+            for (size_t i = inside; i < last; ++i) out[i] = (places[i] - start) / half - 1.0;
+            chebyshev_at(upto, &out[inside], last - inside, &out[inside]);
         }
         for (; inside < last; ++inside) out[inside] = beyond - half * out[inside];
         last = first;

@@ -73,21 +73,13 @@ struct Course {
 
   private:
     void note_bend(const Wrap& wrap, int k, int first, int last, const Values& sigma) {
-        constexpr int WIDTH = 8;
         const double start = wrap.rise.edges[k], end = wrap.rise.edges[k + 1];
         for (int a = 0; a < 3 && first < last; ++a) {
             PointValues values;
             for (int p = 0; p < CURVE_POINTS; ++p) values[p] = wrap.bend[k][p][a];
             const PointValues c = ChebyshevRules::times(ChebyshevRules::get().fit, values);
-            for (int i = first; i < last; i += WIDTH) {
-                std::array<double, WIDTH> at;
-                for (int n = 0; n < WIDTH; ++n) {
-                    const int j = std::min(i + n, last - 1);
-                    at[n] = (sigma[j] + sigma[j + 1] - (start + end)) / (end - start);
-                }
-                at = chebyshev_at(c, at);
-                for (int n = 0; n < WIDTH && i + n < last; ++n) bend[a][i + n] = at[n];
-            }
+            for (int i = first; i < last; ++i) bend[a][i] = (sigma[i] + sigma[i + 1] - (start + end)) / (end - start);
+            chebyshev_at(c, &bend[a][first], last - first, &bend[a][first]);
         }
     }
 };

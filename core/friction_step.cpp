@@ -1,7 +1,5 @@
 #include "friction_step.hpp"
 
-#include <cmath>
-
 #include "free_end.hpp"
 #include "solve.hpp"
 #include "starts.hpp"
@@ -19,13 +17,10 @@ bool is_stable(const FrictionSettled& settled) {
 
 namespace {
 
-/// On a way of equilibria a conjugate point comes in at the base, where the determinant passes zero (the index grows with the
-/// length, Morse 1934): far from there, and near to where stability was found out, there is none yet.
 void stay_stable(const FrictionSettled& near, const FrictionSettled& next) {
     constexpr double LEAST = 0.1, CHANGE = 2.0;
-    const double determinant = next.solution.base_determinant, ratio = determinant / near.proven;
-    if (next.stable || !near.stable || !*near.stable || !(std::fabs(determinant) > LEAST)) return;
-    if (!(ratio > 1.0 / CHANGE && ratio < CHANGE)) return;
+    if (next.stable || !near.stable || !*near.stable) return;
+    if (!is_still_stable(next.solution.base_determinant, near.proven, LEAST, CHANGE)) return;
     next.stable = true;
     next.proven = near.proven;
 }

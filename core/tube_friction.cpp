@@ -207,12 +207,9 @@ class FrictionStepper {
         return false;
     }
 
-    /// On a way of equilibria a conjugate point comes in at the base, where the determinant passes zero (the index grows with
-    /// the length, Morse 1934): far from there, and near to where it was stable, there is none yet.
     bool is_surely_stable() const {
         constexpr double LEAST = 0.3, CHANGE = 1.5;
-        const double ratio = met_.determinant / model_.proven;
-        return std::fabs(met_.determinant) > LEAST && ratio > 1.0 / CHANGE && ratio < CHANGE;
+        return is_still_stable(met_.determinant, model_.proven, LEAST, CHANGE);
     }
 
     bool measure(Follow& way, bool drafts, bool learns) {

@@ -20,23 +20,28 @@ def torsional_stiffness(name):
     return SECTION[name].stiffness(materials.nitinol).GJ
 
 
+def curved(name, compliance, translation, *, as_spring, **fields):
+    """A tube that a spring turns; or with a longer transmission instead."""
+    more = 0.0 if as_spring else compliance * torsional_stiffness(name)
+    return Tube(
+        name,
+        length=LENGTH[name] + more,
+        section=SECTION[name],
+        material=materials.nitinol,
+        precurvature=[(0.0, (0.0, 0.0, 0.0)), (CURVED_FROM[name] + more, CURVATURE[name])],
+        translation=translation - more,
+        rotation_compliance=compliance if as_spring else 0.0,
+        **fields,
+    )
+
+
 def tubes(*, as_springs: bool, turned: float):
-    """Two curved tubes that twist each other; the springs as such, or as longer transmissions."""
-    made = []
-    for name, compliance in SPRINGS.items():
-        more = 0.0 if as_springs else compliance * torsional_stiffness(name)
-        tube = Tube(
-            name,
-            length=LENGTH[name] + more,
-            section=SECTION[name],
-            material=materials.nitinol,
-            precurvature=[(0.0, (0.0, 0.0, 0.0)), (CURVED_FROM[name] + more, CURVATURE[name])],
-            translation=TRANSLATION[name] - more,
-            rotation=turned if name == "inner" else 0.3,
-            rotation_compliance=compliance if as_springs else 0.0,
-        )
-        made.append(tube)
-    return made
+    """Two curved tubes that twist each other."""
+    rotation = {"outer": 0.3, "inner": turned}
+    return [
+        curved(name, SPRINGS[name], TRANSLATION[name], as_spring=as_springs, rotation=rotation[name])
+        for name in SPRINGS
+    ]
 
 
 @pytest.mark.parametrize("turned", [0.3, 1.8, 3.0])
@@ -109,20 +114,10 @@ def test_a_moment_at_the_proximal_end_turns_the_spring(behind):
 def test_friction_at_the_exit_turns_springs_there(springs):
     tips, heats = [], []
     for as_springs in (True, False):
-        made = []
-        for name, compliance in springs.items():
-            more = 0.0 if as_springs else compliance * torsional_stiffness(name)
-            tube = Tube(
-                name,
-                length=LENGTH[name] + more,
-                section=SECTION[name],
-                material=materials.nitinol,
-                precurvature=[(0.0, (0.0, 0.0, 0.0)), (CURVED_FROM[name] + more, CURVATURE[name])],
-                translation=-more,
-                rotation_compliance=compliance if as_springs else 0.0,
-                friction=0.2,
-            )
-            made.append(tube)
+        made = [
+            curved(name, compliance, 0.0, as_spring=as_springs, friction=0.2)
+            for name, compliance in springs.items()
+        ]
         robot = Robot(made, [], [PointLoad("inner", force=(0.3, 0.2, 0.0))])
         turns = 1.2 * np.sin(np.linspace(0.0, 2.0 * np.pi, 21))
         driven = tactr.drive(robot, {"rotation": np.stack([0.3 * turns, turns], axis=1)})
